@@ -1500,7 +1500,7 @@ export interface ShownParts {
      */
     cells?: boolean;
     /**
-     * Whether the projection shows what the 4-D eye cannot see: elements that belong only to cells turned away from it and, of a polytope that is not convex, elements that lie wholly behind other cells. Hidden kinds of cells hide nothing: the eye sees what is behind them.
+     * Whether the projection shows what the 4-D eye cannot see: elements that belong only to cells turned away from it and, of a polytope that is not convex, vertices, parts of edges and whole 2-faces behind other cells. Hidden kinds of cells hide nothing: the eye sees what is behind them.
      */
     back?: boolean;
     /**

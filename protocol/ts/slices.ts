@@ -194,8 +194,9 @@ export interface Elements {
     /** The visibility of each element: 2 is full, 1 is faded, 0 is hidden. Absent if all are fully visible. */
     seen?: { vertices: Uint32Array; edges: Uint32Array; faces: Uint32Array };
     /**
-     * The radius and the opacity of the ball at each vertex. The radius is a multiple of scene.ball; in the projection,
-     * of the part's `ball`. Absent if all these numbers are 1.
+     * For each vertex, the radius of its ball, as a multiple of scene.ball or, in the projection, of the part's `ball`;
+     * and the opacity of the ball. Absent if all these numbers are 1. In the projection without shown.back, the opacity
+     * is 0 where an edge is cut off and at hidden corners.
      */
     balls?: { scale: Float32Array; opacity: Float32Array };
     /**

@@ -297,9 +297,9 @@ void Composer::projectObject(const Object& object, const geometry::Rotation& ori
     const PictureStyle& styles = out.style();
     projection.parts.clear();
     const double barRadius = look.parts.bars ? bar : 0;
-    // If balls are hidden, balls with the radius and the color of the bars join the bars. The points of a cloud then
-    // have this radius, too (see Scene::drawnBallRadius()).
-    const bool isCloud = !projection.elements.ballScale.empty();
+    // If balls are hidden, balls with the radius and color of the bars join the bars, and the points of a cloud have
+    // this radius, too (see Scene::drawnBallRadius()).
+    const bool isCloud = slicing::propertiesOf(object).slices == slicing::SliceContent::points;
     const double pointRadius = look.parts.balls ? ball : bar;
     // Surfaces may be less translucent than the 2-faces between cells, because a line of sight meets a surface less
     // often.

@@ -173,7 +173,7 @@ class ElementPicker {
             picked_->depth = depth;
         };
         for (std::uint32_t v = v0; sizes.ball > 0 && v < set.vertexBegin[i + 1]; ++v) {
-            if (isHidden(scene_.visibilities.vertex(set.vertexSource[v]))) continue;
+            if (!set.hasBall(v) || isHidden(scene_.visibilities.vertex(set.vertexSource[v]))) continue;
             const glm::dvec3& center = points_[v - v0];
             const double own = set.ballScale.empty() ? 1 : set.ballScale[v];
             if (isHitAtDistance(glm::distance(pixels_[v - v0], pixel_), sizes.ball * own, -center.z))

@@ -37,7 +37,7 @@ bool OcclusionFinder::findDrawnElements(const geometry::CellComplex& complex, st
                                         const CellRoles& roles, bool withFaces, std::size_t steps, DrawnElements& out) {
     complex_ = &complex;
     out.vertices.assign(complex.vertices.size(), false);
-    out.edges.assign(complex.edges.size(), false);
+    out.edgeParts.clear();
     out.faces.assign(complex.faces.size(), false);
 
     std::vector<std::uint32_t> faces;
@@ -58,19 +58,20 @@ bool OcclusionFinder::findDrawnElements(const geometry::CellComplex& complex, st
 
     for (const std::uint32_t f : faces) {
         if (cells_.isExhausted()) return false;
-        if (!withFaces || isFaceHidden(f)) continue;
-        out.faces[f] = true;
-        for (const std::uint32_t e : complex.faceEdges[f]) out.edges[e] = true;
+        out.faces[f] = withFaces && !isFaceHidden(f);
     }
     const std::vector<glm::dvec4>& points = cells_.points();
     for (std::uint32_t e = 0; e < complex.edges.size(); ++e) {
         if (cells_.isExhausted()) return false;
+        if (!mayShowEdge[e]) continue;
         const auto [a, b] = complex.edges[e];
-        if (mayShowEdge[e] && !out.edges[e]) {
-            cells_.excludeCells(cells_.cellsOfEdge(e));
-            out.edges[e] = !cells_.isHidden({points[a], points[b]}, cells_.allOccluders());
+        cells_.excludeCells(cells_.cellsOfEdge(e));
+        cells_.findVisibleParts({points[a], points[b]}, cells_.allOccluders(), visibleParts_);
+        for (const auto& [from, to] : visibleParts_) {
+            out.edgeParts.push_back({e, from, to});
+            if (from == 0) out.vertices[a] = true;
+            if (to == 1) out.vertices[b] = true;
         }
-        if (out.edges[e]) out.vertices[a] = out.vertices[b] = true;
     }
     for (std::uint32_t v = 0; v < complex.vertices.size(); ++v) {
         if (cells_.isExhausted()) return false;

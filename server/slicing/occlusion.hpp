@@ -1,5 +1,6 @@
 #pragma once
-// Finds the elements of an object that lie wholly behind its cells, as an eye in four dimensions sees them.
+// Finds the elements of an object, and the parts of its edges, that lie behind its cells, as an eye in four dimensions
+// sees them.
 
 #include <cstddef>
 #include <cstdint>
@@ -14,10 +15,16 @@
 
 namespace oval4d::slicing {
 
-/// Which elements of a cell complex are drawn: for each vertex, edge and 2-face, true if it is drawn. If a 2-face is
-/// drawn, its edges and vertices are drawn, too. If an edge is drawn, its ends are drawn, too.
+/// Which elements of a cell complex are drawn.
 struct DrawnElements {
-    std::vector<bool> vertices, edges, faces;
+    /// A part of an edge that is seen. In the projection, it begins at this fraction of the edge and ends at that one;
+    /// both are exactly 0 or 1 at the ends of the edge.
+    struct EdgePart {
+        std::uint32_t edge;
+        double from, to;
+    };
+    std::vector<bool> vertices, faces;  ///< an entry for each vertex and each 2-face, true if it is drawn
+    std::vector<EdgePart> edgeParts;    ///< those of one edge follow each other, from its beginning to its end
 };
 
 /// For each cell of a complex: whether its elements may be drawn, and whether it hides what lies behind it.
@@ -25,9 +32,9 @@ struct CellRoles {
     std::vector<bool> drawn, hides;
 };
 
-/// Finds the elements of a cell complex that lie wholly behind its cells. A cell does not hide the elements that it
-/// contains; ProjectedCells describes which other points it hides. Reuses its memory. Only one thread at a time may use
-/// an occlusion finder.
+/// Finds what lies behind the cells of a cell complex: 2-faces and vertices, and parts of edges. Of a 2-face, it finds
+/// only whether all of it does. A cell does not hide the elements that it contains; ProjectedCells describes which
+/// other points it hides. Reuses its memory. Only one thread at a time may use an occlusion finder.
 class OcclusionFinder {
   public:
     /// The default limit on the number of steps (see findDrawnElements()). This many steps take a few tenths of a
@@ -36,15 +43,15 @@ class OcclusionFinder {
 
     /// Finds what is drawn of `complex`; `images` has the image of each vertex, as ProjectedCells describes it. Only
     /// elements of the cells CellRoles::drawn are drawn, and of these:
-    /// - if `withFaces`, the 2-faces that are not wholly hidden, and what bounds them; otherwise, no 2-face;
-    /// - the edges that are not wholly hidden, and their ends;
+    /// - if `withFaces`, the 2-faces that are not wholly hidden; otherwise, no 2-face;
+    /// - the parts of edges that are not hidden;
     /// - the vertices that are not hidden.
     ///
-    /// An edge is divided where a cell begins or ceases to hide it, so that the result for edges is exact. In a 2-face,
-    /// the visible parts are bounded by three kinds of lines: its sides, the lines in which cells pass through it, and
-    /// the projections of 2-faces at which the boundary of the body turns away from the eye. The 2-face is hidden if
-    /// both sides of all these lines are hidden. Visible parts narrower than about 10⁻⁶ of the size of the projection
-    /// may be overlooked.
+    /// An edge is divided where a cell begins or ceases to hide it, so that its parts are exact. In a 2-face, the
+    /// visible parts are bounded by three kinds of lines: its sides, the lines in which cells pass through it, and the
+    /// projections of 2-faces at which the boundary of the body turns away from the eye. The 2-face is hidden if both
+    /// sides of all these lines are hidden. Visible parts narrower than about 10⁻⁶ of the size of the projection may be
+    /// overlooked.
     ///
     /// `steps` limits the time. A step is the comparison of a part of an element with a cell or with a triangle of the
     /// boundary of a cell. Returns false if the steps are too few; then `out` is not valid. If they are fewer than the
@@ -87,10 +94,11 @@ class OcclusionFinder {
     ProjectedCells cells_;
     std::vector<SilhouetteFace> silhouetteFaces_;
 
-    ProjectedFaceFrame faceFrame_{};         // the image of the plane of the tested 2-face
-    std::vector<glm::dvec2> outline_;        // the vertex loop of the tested 2-face
-    std::vector<std::uint32_t> candidates_;  // the indices of the occluders that may hide parts of the tested 2-face
-    std::vector<double> places_;             // the places at which a line crosses outline_
+    ProjectedFaceFrame faceFrame_{};                  // the image of the plane of the tested 2-face
+    std::vector<glm::dvec2> outline_;                 // the vertex loop of the tested 2-face
+    std::vector<std::uint32_t> candidates_;           // the indices of the occluders that may hide parts of the element
+    std::vector<double> places_;                      // the places at which a line crosses outline_
+    std::vector<ProjectedCells::Part> visibleParts_;  // the visible parts of the tested edge
 };
 
 }  // namespace oval4d::slicing

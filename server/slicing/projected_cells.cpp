@@ -172,13 +172,56 @@ void ProjectedCells::excludeCells(std::span<const std::uint32_t> cells) {
 }
 
 bool ProjectedCells::isHidden(const Segment& segment, std::span<const std::uint32_t> candidates) {
+    visible_.clear();
     return std::ranges::all_of(kTetrahedron, [&](const glm::dvec3& corner) {
-        const glm::dvec4 shift(kTinyShift * size_ * corner, 0);
-        return isCovered({segment.from + shift, segment.to + shift}, candidates);
+        return findCovered(shifted(segment, corner), candidates) || (!exhausted_ && !addVisible());
     });
 }
 
-bool ProjectedCells::isCovered(const Segment& segment, std::span<const std::uint32_t> candidates) {
+// A point is visible if it is visible after one of the shifts.
+void ProjectedCells::findVisibleParts(const Segment& segment, std::span<const std::uint32_t> candidates,
+                                      std::vector<Part>& out) {
+    visible_.clear();
+    for (const glm::dvec3& corner : kTetrahedron) {
+        if (findCovered(shifted(segment, corner), candidates)) continue;
+        if (exhausted_) break;
+        addVisible();
+        if (!visible_.empty() && visible_.back() == Part(0, 1)) break;
+    }
+    std::ranges::sort(visible_);
+    out.clear();
+    for (const auto& [first, last] : visible_) {
+        if (out.empty() || first > out.back().second + kVisibleGap) {
+            out.emplace_back(first, last);
+        } else {
+            out.back().second = std::max(out.back().second, last);
+        }
+    }
+    if (out.empty()) return;
+    if (out.front().first <= kVisibleGap) out.front().first = 0;
+    if (out.back().second >= 1 - kVisibleGap) out.back().second = 1;
+}
+
+ProjectedCells::Segment ProjectedCells::shifted(const Segment& segment, const glm::dvec3& direction) const {
+    const glm::dvec4 shift(kTinyShift * size_ * direction, 0);
+    return {segment.from + shift, segment.to + shift};
+}
+
+// Adds the parts of a segment between those in covered_ to visible_. Returns whether there are any.
+bool ProjectedCells::addVisible() {
+    const std::size_t before = visible_.size();
+    double reach = 0;
+    for (const auto& [first, last] : covered_) {
+        if (first > reach + kVisibleGap) visible_.emplace_back(reach, first);
+        reach = std::max(reach, last);
+    }
+    if (reach < 1 - kVisibleGap) visible_.emplace_back(reach, 1);
+    return visible_.size() > before;
+}
+
+// Returns whether a single cell hides the whole segment; otherwise, sets covered_ to the hidden parts in ascending
+// order.
+bool ProjectedCells::findCovered(const Segment& segment, std::span<const std::uint32_t> candidates) {
     const glm::dvec3 a(segment.from), b(segment.to);
     const Box box{glm::min(a, b), glm::max(a, b)};
     covered_.clear();
@@ -190,12 +233,7 @@ bool ProjectedCells::isCovered(const Segment& segment, std::span<const std::uint
         return true;
     }
     std::ranges::sort(covered_);
-    double reach = 0;
-    for (const auto& [first, last] : covered_) {
-        if (first > reach + kVisibleGap) return false;
-        reach = std::max(reach, last);
-    }
-    return reach >= 1 - kVisibleGap;
+    return false;
 }
 
 // Adds to covered_ the parts of the segment that the cell `occluder` hides. Returns whether this cell hides the whole

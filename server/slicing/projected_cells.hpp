@@ -91,6 +91,14 @@ class ProjectedCells {
     /// `candidates` are indices of occluders. They must include all occluders that hide a part of the segment.
     bool isHidden(const Segment& segment, std::span<const std::uint32_t> candidates);
 
+    /// A part of a segment, from 0 at its beginning to 1 at its end.
+    using Part = std::pair<double, double>;
+
+    /// Writes the parts of the segment that no cell hides to `out`, in ascending order, apart from those shorter than
+    /// about 10⁻⁶ of the segment. Gaps so short between them are left out, too. There are such parts if and only if the
+    /// segment is not hidden (see isHidden()). Overwrites `out`.
+    void findVisibleParts(const Segment& segment, std::span<const std::uint32_t> candidates, std::vector<Part>& out);
+
     /// Counts `steps` steps of work. A step is the comparison of a part of an element with a cell, or with a triangle
     /// of the boundary of a cell.
     void countSteps(std::size_t steps);
@@ -103,7 +111,9 @@ class ProjectedCells {
     void findOccluders(const std::vector<bool>& hides);
     std::optional<glm::dvec4> normalOf(std::span<const Triangle> triangles) const;
     std::span<const Triangle> trianglesOf(std::uint32_t cell) const;
-    bool isCovered(const Segment& segment, std::span<const std::uint32_t> candidates);
+    Segment shifted(const Segment& segment, const glm::dvec3& direction) const;
+    bool findCovered(const Segment& segment, std::span<const std::uint32_t> candidates);
+    bool addVisible();
     bool addHiddenParts(const Occluder& occluder, const Segment& segment, const Box& box);
     std::optional<double> crossingOf(const Segment& segment, const Triangle& triangle) const;
     int windingOf(std::uint32_t cell, const glm::dvec3& point);
@@ -129,9 +139,8 @@ class ProjectedCells {
     std::uint32_t test_ = 0;                 // the number of the current test, which began with the last excludeCells()
     std::size_t lastHiding_ = 0;             // the index of the last occluder that hid a whole segment
 
-    std::vector<double> cuts_;  // where a cell begins or ceases to hide a segment, from 0 to 1
-    // The hidden parts of a segment: their starts and ends, from 0 to 1.
-    std::vector<std::pair<double, double>> covered_;
+    std::vector<double> cuts_;             // where a cell begins or ceases to hide a segment
+    std::vector<Part> covered_, visible_;  // the hidden parts of a segment, and those that are not hidden
 };
 
 }  // namespace oval4d::slicing

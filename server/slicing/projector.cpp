@@ -1,8 +1,10 @@
 #include "slicing/projector.hpp"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/mat4x4.hpp>
 
@@ -30,30 +32,64 @@ struct ElementSelection {
 };
 
 // Numbers the selected vertices and edges. Sets `vertices` and `edges` to their indices in part 0 of the output, or to
-// kNone for elements that are not selected.
+// kNone for elements that are not selected. An edge that is seen in parts gets the index of its first part.
 void numberSelectedElements(const geometry::CellComplex& p, const ElementSelection& selection,
                             std::vector<std::uint32_t>& vertices, std::vector<std::uint32_t>& edges) {
     vertices.assign(p.vertices.size(), kNone);
     edges.assign(p.edges.size(), kNone);
+    std::uint32_t count = 0;
     if (selection.unhidden != nullptr) {
         const DrawnElements& drawn = *selection.unhidden;
+        for (const DrawnElements::EdgePart& part : drawn.edgeParts)
+            edges[part.edge] = std::min(edges[part.edge], count++);
         for (std::size_t v = 0; v < vertices.size(); ++v) vertices[v] = drawn.vertices[v] ? 0 : kNone;
-        for (std::size_t e = 0; e < edges.size(); ++e) edges[e] = drawn.edges[e] ? 0 : kNone;
+        for (std::size_t f = 0; f < p.faces.size(); ++f) {
+            if (!drawn.faces[f]) continue;
+            for (const std::uint32_t v : p.faces[f]) vertices[v] = 0;
+        }
     } else {
         for (std::size_t f = 0; f < p.faces.size(); ++f) {
             if (!selection.face(p, f)) continue;
             for (const std::uint32_t e : p.faceEdges[f]) edges[e] = 0;
         }
-    }
-    std::uint32_t count = 0;
-    for (std::size_t e = 0; e < edges.size(); ++e) {
-        if (edges[e] == kNone) continue;
-        edges[e] = count++;
-        for (const std::uint32_t v : p.edges[e]) vertices[v] = 0;
+        for (std::size_t e = 0; e < edges.size(); ++e) {
+            if (edges[e] == kNone) continue;
+            edges[e] = count++;
+            for (const std::uint32_t v : p.edges[e]) vertices[v] = 0;
+        }
     }
     count = 0;
     for (std::uint32_t& v : vertices) {
         if (v != kNone) v = count++;
+    }
+}
+
+// Adds the parts of edges to part 0, which has the vertices with the numbers `number`, and the ends of the parts within
+// the edges. `place` returns the projection of a vertex. If some vertices have no balls, sets the scales and opacities
+// of all.
+template <typename Place>
+void addEdgeParts(const geometry::CellComplex& p, const DrawnElements& drawn, const std::vector<std::uint32_t>& number,
+                  Place place, SliceSet& out) {
+    for (std::uint32_t v = 0; v < number.size(); ++v) {
+        if (number[v] != kNone) out.ballOpacity.push_back(drawn.vertices[v] ? 1.0F : 0.0F);
+    }
+    for (const DrawnElements::EdgePart& part : drawn.edgeParts) {
+        const std::array<std::uint32_t, 2>& ends = p.edges[part.edge];
+        const auto vertexAt = [&](double at, std::uint32_t end) {
+            if (at <= 0 || at >= 1) return number[end];
+            out.vertices.push_back(glm::mix(place(ends[0]), place(ends[1]), at));
+            out.vertexSource.push_back(part.edge);
+            return static_cast<std::uint32_t>(out.vertices.size() - 1);
+        };
+        const std::uint32_t from = vertexAt(part.from, ends[0]), to = vertexAt(part.to, ends[1]);
+        out.edges.push_back({from, to});
+        out.edgeSource.push_back(static_cast<std::uint32_t>(p.faces.size()) + part.edge);
+    }
+    out.ballOpacity.resize(out.vertices.size(), 0.0F);
+    if (std::ranges::find(out.ballOpacity, 0.0F) == out.ballOpacity.end()) {
+        out.ballOpacity.clear();
+    } else {
+        out.ballScale.assign(out.vertices.size(), 1.0F);
     }
 }
 
@@ -101,12 +137,14 @@ void Projector::project(const Object& object, const geometry::Rotation& orientat
             culled ? &cellIsFacing_ : nullptr};
         lacksSteps_ = mayHideItself && selection.unhidden == nullptr;
         numberSelectedElements(p, selection, number_, edgeNumber_);
+        const auto place = [&](std::uint32_t v) { return projection(slices.rotatedVertices[v]); };
         for (std::uint32_t v = 0; v < number_.size(); ++v) {
             if (number_[v] == kNone) continue;
-            out.vertices.push_back(projection(slices.rotatedVertices[v]));
+            out.vertices.push_back(place(v));
             out.vertexSource.push_back(edges + v);
         }
-        for (std::uint32_t e = 0; e < edges; ++e) {
+        if (selection.unhidden != nullptr) addEdgeParts(p, *selection.unhidden, number_, place, out);
+        for (std::uint32_t e = 0; e < edges && selection.unhidden == nullptr; ++e) {
             if (edgeNumber_[e] == kNone) continue;
             out.edges.push_back({number_[p.edges[e][0]], number_[p.edges[e][1]]});
             out.edgeSource.push_back(faces + e);
@@ -142,6 +180,9 @@ void Projector::project(const Object& object, const geometry::Rotation& orientat
                   object);
     endPart(out);
     for (int i = options.firstSlice; i < options.endSlice; ++i) addSlice(slices, i, projection, out, faceCells);
+    if (out.ballScale.empty()) return;
+    out.ballScale.resize(out.vertices.size(), 1.0F);
+    out.ballOpacity.resize(out.vertices.size(), 1.0F);
 }
 
 void Projector::addSlice(const SliceSet& slices, int slice, const ProjectionToHyperplane& projection, SliceSet& out,
@@ -207,8 +248,8 @@ bool Projector::findHidingCells(const geometry::CellComplex& complex, std::span<
     return all;
 }
 
-// Returns the elements of an object that do not lie wholly behind its cells, or null if options.occlusionSteps are too
-// few to find them. Expects that roles_ is valid.
+// Returns what of an object does not lie behind its cells, or null if options.occlusionSteps are too few to find it.
+// Expects that roles_ is valid.
 const DrawnElements* Projector::findUnhiddenElements(const geometry::CellComplex& complex,
                                                      const geometry::Rotation& orientation, const SliceSet& slices,
                                                      const ProjectionOptions& options) {

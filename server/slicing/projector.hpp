@@ -47,10 +47,9 @@ class Projector {
         bool cells = false;
         /// Whether to leave out what the 4-D eye cannot see: the elements that belong only to cells whose outer sides
         /// are turned away from it, which are all of a convex object, and of any other object also those that lie
-        /// wholly behind other cells and bound no element that is drawn (see OcclusionFinder::find()). If cells are
-        /// hidden, the eye sees the inner sides of cells through the gaps: then leaves out what belongs only to hidden
-        /// cells and, also of a convex object, what lies wholly behind the others. Leaves out nothing if the object has
-        /// no cells.
+        /// behind other cells (see OcclusionFinder::find()): 2-faces as a whole, edges in part. If cells are hidden,
+        /// the eye sees the inner sides of cells through the gaps: then leaves out what belongs only to hidden cells
+        /// and, also of a convex object, what lies behind the others. Leaves out nothing if the object has no cells.
         bool culled = false;
         /// The types of cells that are hidden, and therefore hide nothing: sorted indices into ObjectInfo::cellTypes.
         std::span<const std::uint32_t> hiddenTypes = {};
@@ -62,8 +61,12 @@ class Projector {
 
     /// Writes the projection of `object` to part 0 of `out`, and the projections of the slices to the parts that
     /// follow. Part i is stored like slice i of a SliceSet; `out.planes` and `out.rotatedVertices` are not used.
-    /// `slices` must have been cut from `object` rotated by `orientation`. The source number of a vertex, edge or
-    /// 2-face in part 0 is the one that it would have in a slice whose hyperplane contains it (see SliceSet).
+    /// `slices` must have been cut from `object` rotated by `orientation`. In part 0, the source number of a vertex,
+    /// edge or 2-face is the one that it would have in a slice whose hyperplane contains it (see SliceSet). If an edge
+    /// is hidden in part, each part that is seen is an edge of `out` with the source number of the edge; where the part
+    /// ends within the edge, it has a vertex without a ball, whose source number is that of a vertex cut from the edge.
+    /// Hidden corners of 2-faces that are seen have no balls, either (see SliceSet::hasBall()), and the entries of
+    /// SliceSet::cornerEdges for hidden sides are kNone.
     ///
     /// Writes one entry to `faceCells` for each face in `out`. For a 2-face in part 0, this is the cell that determines
     /// the color of the 2-face: if one of its two cells is hidden, the other one; otherwise the first one, unless only

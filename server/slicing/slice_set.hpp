@@ -51,7 +51,8 @@ struct SliceSet {
     std::vector<glm::dvec3> vertices;  ///< x, y and z of each vertex, in the units of the object
     std::vector<std::uint32_t> vertexSource;
     /// For a point cloud, per vertex: the radius of its ball relative to the default (see relativeBallRadius()), and
-    /// the opacity of the ball. Empty for other objects, whose balls have the default radius and the opacity 1.
+    /// the opacity of the ball, from 0 to 1. Empty if all these values are 1, as for other objects, except in
+    /// projections with vertices without balls, whose opacity is 0 (see Projector::project()).
     std::vector<float> ballScale, ballOpacity;
     std::vector<std::array<std::uint32_t, 2>> edges;
     std::vector<std::uint32_t> edgeSource;
@@ -62,6 +63,8 @@ struct SliceSet {
     std::vector<SliceSurface> surfaces;  ///< for a field: one entry per slice; otherwise empty
     std::vector<SliceFog> fogs;          ///< for a field with fog: one entry per slice; otherwise empty
 
+    /// Returns whether a vertex has a ball.
+    bool hasBall(std::size_t vertex) const { return ballOpacity.empty() || ballOpacity[vertex] > 0; }
     std::size_t vertexCount(int slice) const { return vertexBegin[slice + 1] - vertexBegin[slice]; }
     std::size_t edgeCount(int slice) const { return edgeBegin[slice + 1] - edgeBegin[slice]; }
     std::size_t faceCount(int slice) const { return faceBegin[slice + 1] - faceBegin[slice]; }

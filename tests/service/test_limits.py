@@ -110,21 +110,20 @@ async def test_faces_beyond_the_fill_limit_are_filled_approximately():
     assert failed.returncode != 0 and b"max-fill" in failed.stderr + failed.stdout
 
 
-def two_tesseracts():
-    """Returns a tesseract, and behind it, at smaller w, one half as large, as 4OFF."""
+def two_tesseracts(x=0):
+    """Returns a tesseract, and behind it, at smaller w, one half as large, moved by `x` along x, as 4OFF."""
     lines = tesseract_file().splitlines()
 
-    def moved(size, w):
+    def moved(size, *by):
         for point in lines[2:18]:
-            *xyz, own = (size * float(x) for x in point.split())
-            yield " ".join(map(str, [*xyz, own + w]))
+            yield " ".join(str(size * float(own) + more) for own, more in zip(point.split(), by))
 
     def renumbered(records, by):
         for count, *items in (map(int, record.split()) for record in records):
             yield " ".join(map(str, [count, *(i + by for i in items)]))
 
     faces, cells = lines[18:42], lines[42:50]
-    records = [*moved(1, 3), *moved(0.5, -3), *faces, *renumbered(faces, 16), *cells, *renumbered(cells, 24)]
+    records = [*moved(1, 0, 0, 0, 3), *moved(0.5, x, 0, 0, -3), *faces, *renumbered(faces, 16), *cells, *renumbered(cells, 24)]
     return "\n".join(["4OFF", "32 48 64 16", *records]) + "\n"
 
 

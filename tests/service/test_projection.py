@@ -6,6 +6,7 @@ import png
 import pytest
 from test_cloud import torus_points
 from test_import import get_file, tesseract_file
+from test_limits import two_tesseracts
 from wire import Client, Refused
 
 SIZE = {"width": 640, "height": 360}
@@ -102,6 +103,30 @@ async def test_the_eye_sees_through_hidden_kinds_of_cells(server):
         assert body == await get_file(client, format="stl", of="projection", body="skeleton"), "it has all kinds"
         await client.request("set", hidden=[])
         assert await seen() == [8, 12, 6]
+
+
+async def test_bars_are_cut_off_where_they_vanish_behind_a_cell(server):
+    """The face x = 1 of the nearer cube halves four edges of the farther one, and four others are hidden."""
+    async with Client(server, stream="none") as client:
+        await client.request("load", name="boxes", format="off", data=two_tesseracts(1))
+        await client.request("set", projection="orthogonal", shown={"back": False},
+                             orientation=[[int(i == j) for j in range(4)] for i in range(4)])
+        for cells in (False, True):
+            await client.request("set", shown={"cells": cells})
+            part = (await projection_of(client))["parts"][0]
+            assert len(part["edges"]) == 12 + 8
+            cut = [v for v, source in enumerate(part["of"]["vertices"]) if source < 64]  # from one of the 64 edges
+            assert len(cut) == 4 and part["balls"]["scale"] == [1] * len(part["vertices"])
+            assert all(part["balls"]["opacity"][v] == 0 for v in cut)
+            assert part["balls"]["opacity"].count(1) == 8 + 4
+            halves = [edge for edge in part["edges"] if not set(edge).isdisjoint(cut)]
+            lengths = [math.dist(*(part["vertices"][v] for v in edge)) for edge in halves]
+            assert lengths == pytest.approx([0.5] * 4, rel=1e-3)
+            svg = (await get_file(client, format="svg", of="projection")).decode()
+            assert (svg.count("<circle"), svg.count("<line")) == (12, 2 * 20), "each bar has a halo"
+        skeleton = await get_file(client, format="stl", of="projection", body="skeleton")
+        await client.request("set", shown={"back": True})
+        assert skeleton != await get_file(client, format="stl", of="projection", body="skeleton")
 
 
 async def test_frames_and_stored_sessions_have_it(server):

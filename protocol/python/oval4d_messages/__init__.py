@@ -375,8 +375,8 @@ class StateShown(_StateShown, total=False):
     # Whether the projection of the whole polytope shows the 2-faces that bound its cells, or those of a surface.
     cells: bool
     # Whether the projection shows what the 4-D eye cannot see: elements that belong only to cells turned away from it
-    # and, of a polytope that is not convex, elements that lie wholly behind other cells. Hidden kinds of cells hide
-    # nothing: the eye sees what is behind them.
+    # and, of a polytope that is not convex, vertices, parts of edges and whole 2-faces behind other cells. Hidden kinds
+    # of cells hide nothing: the eye sees what is behind them.
     back: bool
     # Whether the projection shows the sections of all hyperplanes, not only that of the focus slice.
     sections: bool
@@ -1029,8 +1029,8 @@ class ShownParts(TypedDict, total=False):
     # Whether the projection of the whole polytope shows the 2-faces that bound its cells, or those of a surface.
     cells: bool
     # Whether the projection shows what the 4-D eye cannot see: elements that belong only to cells turned away from it
-    # and, of a polytope that is not convex, elements that lie wholly behind other cells. Hidden kinds of cells hide
-    # nothing: the eye sees what is behind them.
+    # and, of a polytope that is not convex, vertices, parts of edges and whole 2-faces behind other cells. Hidden kinds
+    # of cells hide nothing: the eye sees what is behind them.
     back: bool
     # Whether the projection shows the sections of all hyperplanes, not only that of the focus slice.
     sections: bool

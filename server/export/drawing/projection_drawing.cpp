@@ -135,8 +135,8 @@ class ProjectionDrawer {
         for (std::uint32_t e = set.edgeBegin[part]; look.barRadius > 0 && e < set.edgeBegin[part + 1]; ++e) {
             const double seen = slicing::opacityOf(scene_.visibilities.edge(set.edgeSource[e]));
             if (seen == 0) continue;
-            const glm::dvec3 a = toViewSpace(set.vertices[v0 + set.edges[e][0]]),
-                             b = toViewSpace(set.vertices[v0 + set.edges[e][1]]);
+            const std::uint32_t from = v0 + set.edges[e][0], to = v0 + set.edges[e][1];
+            const glm::dvec3 a = toViewSpace(set.vertices[from]), b = toViewSpace(set.vertices[to]);
             const bool lit = scene_.highlight.hasEdge(set.edgeSource[e]);
             const double depth = (a.z + b.z) / 2, width = kThickness * 2 * scale_ * look.barRadius;
             // The white line is wider than the bar, and so makes a gap in the bars behind the bar. The white line is
@@ -151,12 +151,12 @@ class ProjectionDrawer {
                                    .to = paperPosition(b),
                                    .width = width,
                                    .color = lit ? style.highlight : colorAt(part, depth),
-                                   .roundEnds = true,
+                                   .roundEnds = set.hasBall(from) && set.hasBall(to),
                                    .opacity = seen});
         }
         for (std::uint32_t v = v0; look.ballRadius > 0 && v < set.vertexBegin[part + 1]; ++v) {
             const double seen = slicing::opacityOf(scene_.visibilities.vertex(set.vertexSource[v]));
-            if (seen == 0) continue;
+            if (seen == 0 || !set.hasBall(v)) continue;
             const glm::dvec3 p = toViewSpace(set.vertices[v]);
             const double own = set.ballScale.empty() ? 1 : set.ballScale[v];
             const double opacity = seen * (set.ballOpacity.empty() ? 1 : set.ballOpacity[v]);

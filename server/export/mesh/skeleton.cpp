@@ -71,8 +71,10 @@ void addCapsule(const Capsule& capsule, SampledField& field) {
 std::vector<Capsule> capsulesOf(const slicing::SliceSet& slices, int i, double scale, const SkeletonRadii& radii) {
     const glm::dvec3* points = slices.vertices.data() + slices.vertexBegin[i];
     std::vector<Capsule> capsules;
-    for (std::size_t v = 0; v < slices.vertexCount(i); ++v)
-        capsules.push_back({points[v] * scale, points[v] * scale, radii.ball});
+    for (std::size_t v = 0; v < slices.vertexCount(i); ++v) {
+        if (slices.hasBall(slices.vertexBegin[i] + v))
+            capsules.push_back({points[v] * scale, points[v] * scale, radii.ball});
+    }
     for (std::uint32_t e = slices.edgeBegin[i]; e < slices.edgeBegin[i + 1]; ++e) {
         const auto [a, b] = slices.edges[e];
         capsules.push_back({points[a] * scale, points[b] * scale, radii.bar});
@@ -87,7 +89,9 @@ SkeletonRadii skeletonRadii(const scene::Scene& scene, double scale) {
 }
 
 double estimateTriangles(const slicing::SliceSet& slices, double scale, const SkeletonRadii& radii) {
-    double area = 4 * std::numbers::pi * radii.ball * radii.ball * static_cast<double>(slices.vertices.size());
+    double area = 0;
+    for (std::size_t v = 0; v < slices.vertices.size(); ++v)
+        area += slices.hasBall(v) ? 4 * std::numbers::pi * radii.ball * radii.ball : 0;
     for (int i = 0; i < slices.planes.count; ++i) {
         const glm::dvec3* points = slices.vertices.data() + slices.vertexBegin[i];
         for (std::uint32_t e = slices.edgeBegin[i]; e < slices.edgeBegin[i + 1]; ++e) {

@@ -56,8 +56,10 @@ void ProjectionShapeCollector::collectPart(const scene::Scene& scene, std::uint3
     };
     const std::uint32_t first = elements.vertexBegin[part];
     if (look.ballRadius > 0) {
-        for (std::uint32_t v = first; v < elements.vertexBegin[part + 1]; ++v)
+        for (std::uint32_t v = first; v < elements.vertexBegin[part + 1]; ++v) {
+            if (!elements.hasBall(v)) continue;
             add({-points_[v].z, ShapeKind::ball, part, v}, scene.visibilities.vertex(elements.vertexSource[v]));
+        }
     }
     if (look.barRadius > 0) {
         for (std::uint32_t e = elements.edgeBegin[part]; e < elements.edgeBegin[part + 1]; ++e) {

@@ -1,9 +1,12 @@
 #pragma once
-// Helpers of tests of what the projection of an object leaves out because it lies wholly behind its cells.
+// Helpers of tests of what the projection of an object leaves out because it lies behind its cells.
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <numbers>
 #include <optional>
 #include <set>
@@ -51,7 +54,17 @@ inline polytopes::Polytope boxes(const std::vector<TestBox>& all) {
     return polytopes::makePolytope("boxes", std::move(vertices), std::move(faces), std::move(cells));
 }
 
-/// The drawn elements of an object.
+/// Returns the projection of an object, without sections.
+inline SliceSet projectionWith(Projector& projector, const polytopes::Polytope& p, const geometry::Rotation& turn,
+                               const Projector::ProjectionOptions& options) {
+    SliceSet slices, parts;
+    std::vector<std::uint32_t> faceCells;
+    Slicer().sliceWithoutSurfaces(support::objectOf(p), turn, {0, 1, 1}, slices);
+    projector.project(support::objectOf(p), turn, slices, options, parts, faceCells);
+    return parts;
+}
+
+/// The drawn elements of an object: the vertices with balls, the edges of which a part is drawn, and the 2-faces.
 struct Drawn {
     std::set<std::uint32_t> vertices, edges, faces;
     bool operator==(const Drawn&) const = default;
@@ -59,14 +72,13 @@ struct Drawn {
 
 inline Drawn drawnWith(Projector& projector, const polytopes::Polytope& p, const geometry::Rotation& turn,
                        const Projector::ProjectionOptions& options) {
-    SliceSet slices, parts;
-    std::vector<std::uint32_t> faceCells;
-    Slicer().sliceWithoutSurfaces(support::objectOf(p), turn, {0, 1, 1}, slices);
-    projector.project(support::objectOf(p), turn, slices, options, parts, faceCells);
+    const SliceSet parts = projectionWith(projector, p, turn, options);
     const auto vertices = static_cast<std::uint32_t>(p.edges.size()),
                edges = static_cast<std::uint32_t>(p.faces.size()), faces = static_cast<std::uint32_t>(p.cells.size());
     Drawn out;
-    for (const std::uint32_t source : parts.vertexSource) out.vertices.insert(source - vertices);
+    for (std::size_t v = 0; v < parts.vertices.size(); ++v) {
+        if (parts.hasBall(v)) out.vertices.insert(parts.vertexSource[v] - vertices);
+    }
     for (const std::uint32_t source : parts.edgeSource) out.edges.insert(source - edges);
     for (const std::uint32_t source : parts.faceSource) out.faces.insert(source - faces);
     return out;
@@ -76,6 +88,31 @@ inline Drawn drawn(const polytopes::Polytope& p, const geometry::Rotation& turn,
                    const Projector::ProjectionOptions& options) {
     Projector projector;
     return drawnWith(projector, p, turn, options);
+}
+
+/// The drawn parts of each edge: the ends of their bars in the projection.
+using Bars = std::multimap<std::uint32_t, std::array<glm::dvec3, 2>>;
+
+inline Bars barsOf(const polytopes::Polytope& p, const geometry::Rotation& turn,
+                   const Projector::ProjectionOptions& options) {
+    Projector projector;
+    const SliceSet parts = projectionWith(projector, p, turn, options);
+    Bars bars;
+    for (std::size_t e = 0; e < parts.edges.size(); ++e) {
+        const auto& [a, b] = parts.edges[e];
+        bars.emplace(parts.edgeSource[e] - static_cast<std::uint32_t>(p.faces.size()),
+                     std::array{parts.vertices[a], parts.vertices[b]});
+    }
+    return bars;
+}
+
+/// Returns whether a bar of an edge contains a point of this edge, which is projected to `place`.
+inline bool isDrawnAt(const Bars& bars, std::uint32_t edge, const glm::dvec3& place) {
+    const auto [first, end] = bars.equal_range(edge);
+    return std::any_of(first, end, [&](const auto& bar) {
+        const auto& [from, to] = bar.second;
+        return glm::distance(from, place) + glm::distance(place, to) < glm::distance(from, to) + 1e-9;
+    });
 }
 
 /// Returns the winding number of the boundary of a cell around a point, both projected, as a sum of solid angles: see

@@ -1,4 +1,4 @@
-// Tests of hidden elements: the projection of a nonconvex object leaves out what lies wholly behind other cells.
+// Tests of hidden elements: the projection of a nonconvex object leaves out what lies behind other cells.
 
 #include <algorithm>
 #include <cmath>
@@ -75,15 +75,66 @@ TEST(Occlusion, DividesEdgesWhereTheyVanishBehindACell) {
     for (int round = 0; round < 4; ++round) {
         const geometry::Rotation turn = round == 0 ? geometry::Rotation() : randomRotationOfSpace(random);
         const Drawn bars = drawn(p, turn, {.projection = {0.0}, .culled = true});
-        // The four edges with x = 0.5 are hidden. Four other edges are hidden only in part, so both of their ends are
-        // drawn.
+        // The four edges with x = 0.5 are hidden, and so are their ends. Four others are hidden only in part.
         EXPECT_EQ(bars.edges.size(), 12U + 8U);
-        EXPECT_EQ(bars.vertices.size(), 8U + 8U);
-        // Only the square with x = 0.5 is wholly hidden. The other squares are drawn with all of their sides.
+        EXPECT_EQ(bars.vertices.size(), 8U + 4U);
+        // Only the square with x = 0.5 is wholly hidden. Of the sides of the other squares, the same parts are drawn.
         const Drawn cells = drawn(p, turn, {.projection = {0.0}, .cells = true, .culled = true});
         EXPECT_EQ(cells.faces.size(), 6U + 5U);
-        EXPECT_EQ(cells.edges.size(), 12U + 12U);
-        EXPECT_EQ(cells.vertices.size(), 8U + 8U);
+        EXPECT_EQ(cells.edges, bars.edges);
+        EXPECT_EQ(cells.vertices, bars.vertices);
+    }
+}
+
+TEST(Occlusion, CutsBarsOffWhereTheyVanishBehindACell) {
+    const Polytope p = boxes({cubeAt({0, 0, 0, 3}, 1), cubeAt({1, 0, 0, -3}, 0.5)});
+    const Bars bars = barsOf(p, {}, {.projection = {0.0}, .culled = true});
+    EXPECT_EQ(bars, barsOf(p, {}, {.projection = {0.0}, .cells = true, .culled = true}));
+    std::size_t cut = 0;
+    for (const auto& [edge, ends] : bars) {
+        if (p.edges[edge][0] < 16) continue;  // of the nearer cube
+        const auto [least, most] = std::minmax(ends[0].x, ends[1].x);
+        EXPECT_NEAR(most, 1.5, 1e-8);
+        if (most - least < 0.1) continue;
+        EXPECT_NEAR(least, 1, 1e-8);
+        ++cut;
+    }
+    EXPECT_EQ(cut, 4U);
+
+    Projector projector;
+    for (const bool cells : {false, true}) {
+        const SliceSet parts = projectionWith(projector, p, {}, {.projection = {0.0}, .cells = cells, .culled = true});
+        // 12 vertices are seen, 4 bars are cut off, and 4 corners of squares are hidden.
+        ASSERT_EQ(parts.vertices.size(), 12U + 4U + (cells ? 4U : 0U));
+        ASSERT_EQ(parts.ballOpacity.size(), parts.vertices.size());
+        EXPECT_EQ(parts.ballScale, std::vector<float>(parts.vertices.size(), 1));
+        EXPECT_EQ(std::ranges::count(parts.ballOpacity, 1.0F), 12);
+        for (std::size_t v = 0; v < parts.vertices.size(); ++v) {
+            if (parts.vertexSource[v] >= p.edges.size()) continue;
+            EXPECT_FALSE(parts.hasBall(v));
+            EXPECT_NEAR(parts.vertices[v].x, 1, 1e-8);
+        }
+    }
+}
+
+// A bar that passes behind two cubes is drawn before, between and behind them.
+TEST(Occlusion, DrawsSeveralPartsOfABar) {
+    const Polytope p =
+        boxes({cubeAt({-2, 0, 0, 3}, 1), cubeAt({2, 0, 0, 3}, 1), {{-4, -0.5, -0.5, -3}, {4, 0.5, 0.5, -2}}});
+    const Bars bars = barsOf(p, {}, {.projection = {0.0}, .culled = true});
+    for (std::uint32_t e = 0; e < p.edges.size(); ++e) {
+        const glm::dvec4 &a = p.vertices[p.edges[e][0]], &b = p.vertices[p.edges[e][1]];
+        if (a.w > -1 || a.w < -2.5 || std::abs(a.x - b.x) < 1) continue;
+        std::vector<double> ends;
+        const auto [first, last] = bars.equal_range(e);
+        for (auto bar = first; bar != last; ++bar) {
+            ends.push_back(bar->second[0].x);
+            ends.push_back(bar->second[1].x);
+        }
+        std::ranges::sort(ends);
+        const std::vector<double> expected{-4, -3, -1, 1, 3, 4};
+        ASSERT_EQ(ends.size(), expected.size());
+        for (std::size_t i = 0; i < ends.size(); ++i) EXPECT_NEAR(ends[i], expected[i], 1e-8);
     }
 }
 
@@ -180,15 +231,16 @@ TEST(Occlusion, NeverLeavesOutWhatARaySees) {
             const geometry::Rotation turn = support::randomRotation(random);
             const RayCaster rays(p, turn, inverse);
             const Drawn cells = drawn(p, turn, {.projection = {inverse}, .cells = true, .culled = true});
-            const Drawn bars = drawn(p, turn, {.projection = {inverse}, .culled = true});
-            EXPECT_TRUE(std::ranges::includes(cells.edges, bars.edges));
+            const Bars bars = barsOf(p, turn, {.projection = {inverse}, .culled = true});
             for (int sample = 0; sample < (support::kSanitized ? 20 : 100); ++sample) {
                 const auto e = static_cast<std::uint32_t>(random() % p.edges.size());
                 const auto [a, b] = p.edges[e];
                 const double t = part(random);
-                const bool edgeIsSeen = rays.sees((1 - t) * rays.vertex(a) + t * rays.vertex(b), cellsOfEdge[e]);
+                const glm::dvec4 point = (1 - t) * rays.vertex(a) + t * rays.vertex(b);
+                const bool edgeIsSeen = rays.sees(point, cellsOfEdge[e]);
                 ++(edgeIsSeen ? seenPoints : hiddenPoints);
-                ASSERT_TRUE(!edgeIsSeen || (bars.edges.contains(e) && bars.vertices.contains(a))) << e;
+                ASSERT_EQ(isDrawnAt(bars, e, ProjectionToHyperplane{inverse}(point)), edgeIsSeen) << e;
+                ASSERT_TRUE(!edgeIsSeen || cells.edges.contains(e)) << e;
 
                 const auto f = static_cast<std::uint32_t>(random() % p.faces.size());
                 const auto loop = p.faces[f];

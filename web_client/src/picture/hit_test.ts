@@ -229,7 +229,7 @@ class MeshHitTest {
         const { of, balls, seen: visibility, vertices } = elements;
         for (let v = 0, at = 0; v < vertices.length / 3; ++v, at += kStride) {
             const depth = -projected[at + 2]!;
-            if (depth <= 0 || visibility?.vertices[v] === 0) continue;
+            if (depth <= 0 || visibility?.vertices[v] === 0 || balls?.opacity[v] === 0) continue;
             const perPixel = depth / this.viewCamera.pixelsPerUnit;
             const radius = Math.max(ball * (balls?.scale[v] ?? 1), this.reach * perPixel);
             const distance = Math.hypot(projected[at + 3]! - this.x, projected[at + 4]! - this.y) * perPixel;

@@ -54,5 +54,21 @@ TEST(ProjectionShapes, HaveThePiecesOfTheFocusSectionOfAStar) {
     EXPECT_EQ(countFacesOf(layers.translucent), pieces);
 }
 
+TEST(ProjectionShapes, HaveNoBallsWhereBarsAreCutOff) {
+    scene::Look look;
+    look.projection.kind = scene::ProjectionKind::orthogonal;
+    look.parts.back = look.parts.bars = false;
+    const Subject subject("small stellated 120-cell", randomRotation(44), 1, look, {1280, 720});
+    const slicing::SliceSet& elements = subject.scene.projection.elements;
+    std::size_t balls = 0;
+    for (std::size_t v = 0; v < elements.vertexCount(0); ++v) balls += elements.hasBall(v) ? 1 : 0;
+    ASSERT_GT(balls, 0U);
+    ASSERT_LT(balls, elements.vertexCount(0));
+    ProjectionShapeCollector::Layers layers;
+    ProjectionShapeCollector().collect(subject.scene, layers);
+    const auto disks = std::ranges::count(layers.solid.patches(), Patch::Form::disk, &Patch::form);
+    EXPECT_EQ(static_cast<std::size_t>(disks), balls);
+}
+
 }  // namespace
 }  // namespace oval4d::render
