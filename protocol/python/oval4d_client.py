@@ -753,7 +753,7 @@ def from_cbor(data):
         kind = ARRAY_TYPES.get(tag.tag)
         return tag if kind is None else array.array(kind, tag.value)
 
-    return _decode_slices("CBOR", lambda: cbor2.loads(data, tag_hook=typed), cbor2.CBORDecodeError)
+    return _decode_slices("CBOR", lambda: cbor2.loads(data, tag_hook=decode_typed_array), cbor2.CBORDecodeError)
 
 
 def from_msgpack(data):
@@ -765,7 +765,8 @@ def from_msgpack(data):
         kind = ARRAY_TYPES.get(code)
         return msgpack.ExtType(code, content) if kind is None else array.array(kind, content)
 
-    return _decode_slices("MessagePack", lambda: msgpack.unpackb(data, ext_hook=typed), msgpack.UnpackException)
+    return _decode_slices("MessagePack", lambda: msgpack.unpackb(data, ext_hook=decode_typed_array),
+                          msgpack.UnpackException)
 
 
 def from_bjdata(data):
@@ -820,7 +821,7 @@ def from_bjdata(data):
             raise ValueError("there are bytes after its end")
         return message
 
-    return _decode_slices("BJData", whole, ValueError)
+    return _decode_slices("BJData", whole_message, ValueError)
 
 
 def _decode_slices(encoding, read, failure):

@@ -201,8 +201,7 @@ void findSourcesIn(const PointCloud& /*cloud*/, const Element& element, PartsSho
 void measureSize(const CellComplex& p, const Element& element, const glm::dmat4& toFile, ElementMeasurements& out) {
     std::vector<glm::dvec4> points;
     visitVertices(p, element, [&](const glm::dvec4& v) { points.push_back(v); });
-    // The points are taken relative to a vertex of the element, because the fewest digits are then lost by
-    // cancellation.
+    // Points relative to a vertex of the element lose the fewest digits by cancellation.
     const glm::dvec4 base = points.front();
     for (glm::dvec4& point : points) point = toFile * (point - base);
     const OrthonormalBasis basis(points, static_cast<std::size_t>(element.kind), 0);
@@ -357,8 +356,7 @@ std::string unitOfElementSize(const Object& object, const fields::Field& field,
             least = std::min(least, at);
             most = std::max(most, at);
         }
-        // The vertices are corners of the box. So along an axis, they differ by the whole extent of the box or not at
-        // all.
+        // Along an axis, the vertices, corners of the box, differ by the whole extent of the box or not at all.
         if (most - least > (field.box.max[axis] - field.box.min[axis]) / 2)
             units.push_back(field.units.at(static_cast<std::size_t>(axis)));
     }

@@ -175,7 +175,7 @@ def test_a_client_can_be_closed_while_it_reconnects(server, monkeypatch):
             closed.set()
 
         monkeypatch.setattr(oval._socket, "close", close)
-        monkeypatch.setattr(oval4d_client.Client, "_open", open_late)
+        monkeypatch.setattr(oval4d_client.Client, "_open_socket", open_late)
         oval._loop.call_soon_threadsafe(oval._socket.transport.abort)
         assert reconnects.wait(DEADLINE)
 
@@ -204,7 +204,7 @@ def test_the_client_waits_for_a_server_that_can_open_its_session(server, monkeyp
     with connect(server.url, timeout=DEADLINE) as oval:
         session = oval.hello()["session"]
         oval.key("y")
-        monkeypatch.setattr(oval4d_client.Client, "_open", open_refused_twice)
+        monkeypatch.setattr(oval4d_client.Client, "_open_socket", open_refused_twice)
         oval._loop.call_soon_threadsafe(oval._socket.transport.abort)
         wait_until(lambda: len(attempts) == 3, "the third attempt")
         assert oval.key("y")["revision"] == 2

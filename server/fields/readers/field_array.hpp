@@ -70,7 +70,7 @@ struct FieldArray {
     Result<std::shared_ptr<const ArrayFunction>> function() const;
 };
 void visitStoredMembers(serialization::ReadOrWritten<FieldArray> auto& array, auto& visit) {
-    // `boxIsKnown` and `warnings` are not stored, because they matter only while a file is loaded.
+    // `boxIsKnown` is not stored, and `warnings` is not stored: both matter only while a file is loaded.
     auto& [shape, box, boxIsKnown, samples, units, quantity, isPart, imageLevel, warnings] = array;
     visit.member(0, shape);
     visit.member(1, box);

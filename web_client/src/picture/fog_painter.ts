@@ -44,8 +44,7 @@ uniform vec3 low;            // the first point of the lattice
 uniform vec3 size;           // the numbers of lattice points along x, y and z
 uniform float latticeStep;
 out vec4 pixel;
-// Returns the distance from the eye, along the view axis, of the nearest shape at this pixel; 1e30 if there is none.
-// The argument is a depth texture.
+// Returns the distance along the view axis of the nearest shape at this pixel of the texture; 1e30 if there is none.
 float distanceIn(sampler2D depths) {
     float depth = texelFetch(depths, ivec2(gl_FragCoord.xy), 0).r;
     return depth < 1.0 ? toDepth.y / (2.0 * depth - 1.0 - toDepth.x) : 1e30;
