@@ -35,7 +35,7 @@ void main() {
 constexpr std::string_view kFragmentSource = R"(
 // Lengths in the slice are in circumradii: in the units of the object, their squares could be too large or too small.
 in vec3 place;
-in float depthSeen;  // the distance of `place` from the eye along the view axis
+in float depthSeen;  // the distance of place from the eye along the view axis
 uniform sampler3D lattice;   // red: the value of a lattice point, 0 if there is none; green: 1 if there is a value
 uniform sampler3D blocks;    // per block of 4 × 4 × 4 lattice cells: 0 if the block contains no fog
 uniform sampler2D table;     // per value: the color of fog, and its absorption per circumradius

@@ -30,17 +30,17 @@ precision highp float;
 precision highp sampler3D;
 // Lengths in the slice are in circumradii: squares of lengths in object units could overflow or underflow.
 in vec3 place;
-in float depthSeen;  // the distance of this place from the eye along the view axis
-uniform sampler3D lattice;   // red: the value, 0 if there is none; green: whether there is one
-uniform sampler3D blocks;    // per block of 4 × 4 × 4 cells of the lattice: 0 if there is no fog in it
-uniform sampler2D table;     // per value: the color, and the absorption per circumradius
+in float depthSeen;  // the distance of place from the eye along the view axis
+uniform sampler3D lattice;   // red: the value of a lattice point, 0 if there is none; green: 1 if there is a value
+uniform sampler3D blocks;    // per block of 4 × 4 × 4 lattice cells: 0 if the block contains no fog
+uniform sampler2D table;     // per value: the color of fog, and its absorption per circumradius
 uniform sampler2D frameDepths, surfaceDepths;
-uniform vec2 toDepth;        // the depth of a point, from -1 to 1, is toDepth.x + toDepth.y / distance
+uniform vec2 toDepth;        // (a, b): the depth of a point at the distance d is a + b / d, from -1 to 1
 uniform bool isBehind;       // true: draws the fog behind balls and bars; false: the fog in front of them
-uniform vec3 eye;            // in slice coordinates, like walls and low
+uniform vec3 eye;            // the eye in slice coordinates; walls and low are also in slice coordinates
 uniform vec4 walls[8];
 uniform int wallCount;
-uniform vec3 low;            // the first point of the lattice
+uniform vec3 low;            // the lattice point with the least x, y and z
 uniform vec3 size;           // the numbers of lattice points along x, y and z
 uniform float latticeStep;
 out vec4 pixel;
@@ -50,7 +50,7 @@ float distanceIn(sampler2D depths) {
     return depth < 1.0 ? toDepth.y / (2.0 * depth - 1.0 - toDepth.x) : 1e30;
 }
 void main() {
-    // The ray is eye + t * way. Its part within the fog has t from begin to end.
+    // The ray is eye + t * way. Its part in the fog is from t = begin to t = end.
     vec3 way = place - eye;
     way += vec3(equal(way, vec3(0.0))) * 1e-20;
     vec3 first = (low - eye) / way, last = (low + latticeStep * (size - 1.0) - eye) / way;
@@ -76,7 +76,7 @@ void main() {
     for (float i = 0.0; i < count && clear > 0.002; ++i, at += move) {
         vec3 block = clamp((at * size - 0.5) / 4.0, vec3(0.0), (size - 1.001) / 4.0);
         if (texelFetch(blocks, ivec3(block), 0).r == 0.0) {
-            // This block has no fog. Leaps to its last sample, so that the next sample is in another block.
+            // This block contains no fog. Leaps to the last sample in the block; the next sample is in another block.
             vec3 perStep = move * size / 4.0;
             vec3 steps = (floor(block) + vec3(greaterThan(perStep, vec3(0.0))) - block) / perStep;
             float leap = max(ceil(min(steps.x, min(steps.y, steps.z))) - 1.0, 0.0);
