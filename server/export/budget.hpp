@@ -26,7 +26,7 @@ struct ExportLimits {
     /// The maximum number of edges of all slices together (see slicing::checkSliceEdges()).
     std::size_t sliceEdges = std::numeric_limits<std::size_t>::max();
     /// The maximum number of steps to find the parts of the projection that lie behind other cells (see
-    /// slicing::OcclusionFinder::find()).
+    /// slicing::OcclusionFinder::findDrawnElements()).
     std::size_t occlusionSteps = slicing::OcclusionFinder::kDefaultSteps;
     /// The maximum number of slices that ExportRequest::chosenW or ExportRequest::fittedSlices may choose.
     int slices = 201;

@@ -36,7 +36,7 @@ struct PictureWorkLimits {
     /// The maximum number of edges of all slices together (see slicing::checkSliceEdges()).
     std::size_t sliceEdges = 5'000'000;
     /// The maximum number of steps to find which elements lie behind other cells (see
-    /// slicing::OcclusionFinder::find()).
+    /// slicing::OcclusionFinder::findDrawnElements()).
     std::size_t occlusionSteps = slicing::OcclusionFinder::kDefaultSteps;
 };
 

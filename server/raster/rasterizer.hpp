@@ -51,7 +51,7 @@ class LocalRasterizer : public Rasterizer {
     /// slicing::FaceFiller::fill()).
     void limitFaceFilling(std::size_t steps) { fillSteps_ = steps; }
     /// Limits the time for finding which elements lie behind other cells in each picture to `steps` steps (see
-    /// slicing::OcclusionFinder::find()).
+    /// slicing::OcclusionFinder::findDrawnElements()).
     void limitOcclusion(std::size_t steps) { occlusionSteps_ = steps; }
 
     void warmUp() override;

@@ -16,7 +16,7 @@ struct RasterizerLimits {
     std::size_t fillSteps = 0;  ///< the maximum number of steps in one picture (see slicing::FaceFiller::fill())
     /// The maximum size of the cache of objects, in bytes; the latest object may exceed it.
     std::size_t objectBytes = 0;
-    /// The maximum number of steps in one picture (see slicing::OcclusionFinder::find()).
+    /// The maximum number of steps in one picture (see slicing::OcclusionFinder::findDrawnElements()).
     std::size_t occlusionSteps = slicing::OcclusionFinder::kDefaultSteps;
 };
 

@@ -89,8 +89,8 @@ inline constexpr auto kCapStyles = text::completeTable<text::NamedValue<CapStyle
     {{"plain", CapStyle::plain}, {"value", CapStyle::value}, {"open", CapStyle::open}});
 constexpr const auto& choicesOf(CapStyle /*type*/) { return kCapStyles; }
 
-/// The kinds of projection of the whole object to three dimensions. projectionBeside() says where each view shows the
-/// projection. Stored sessions contain the numbers of the enumerators; therefore these numbers must not change.
+/// The kinds of projection of the whole object to three dimensions. placeProjectionBeside() says where each view shows
+/// the projection. Stored sessions contain the numbers of the enumerators; therefore these numbers must not change.
 enum class ProjectionKind : std::uint8_t {
     off = 0,
     perspective = 1,  ///< from an eye on the positive w axis

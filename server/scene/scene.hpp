@@ -46,7 +46,8 @@ struct ObjectProjection {
     std::vector<std::uint32_t> faceCells;
     std::vector<ProjectionPartLook> parts;  ///< the look of each part of `elements`
     double scale = 1;                       ///< world units per unit of the object
-    /// Whether only elements of cells turned away from the eye were left out: see slicing::Projector::lacksSteps().
+    /// Whether only elements of cells turned away from the eye were left out: see
+    /// slicing::Projector::exceededOcclusionSteps().
     bool onlyTurnedAwayLeftOut = false;
     /// The filled faces of those parts of `elements` of which pieces (convex polygons) are drawn instead of polygons.
     /// These are part 0 if its polygons need not be convex, and the section of the focus slice (the middle one) if

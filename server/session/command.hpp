@@ -98,7 +98,7 @@ struct LoadObject {
     std::string dataName = {};  ///< the name of an array in the server's data folder; empty if none
     /// For a polytope, a surface or points: the point about which the object turns.
     geometry::Centering center = {};
-    /// For an array in the server's data folder: the resolution level to read. Set by loadOfFinerLevel() only.
+    /// For an array in the server's data folder: the resolution level to read. Set by loadCommandForFinerLevel() only.
     std::optional<FinerImageLevel> finer = {};
 
     /// Returns whether the object is an array in files or in a folder, not in `data`. The format of such an array may

@@ -31,7 +31,7 @@ struct KeyAction {
 };
 
 /// Returns all actions that the server executes:
-/// - the actions that ownActions() in key_actions.cpp lists;
+/// - the actions that individualActions() in key_actions.cpp lists;
 /// - for each row of scene::kParts, an action that shows or hides this part of the picture;
 /// - for each row of slicing::kElementKinds, an action that turns an element of this kind toward +w, and two actions
 ///   that highlight the next and the previous element of this kind;

@@ -111,8 +111,9 @@ int OcclusionFinder::orientationSignOfCell(std::uint32_t cell) const {
     return static_cast<int>(positive) - static_cast<int>(negative);
 }
 
-// If the projections of the two cells of a 2-face have the same sign (see orientationSignOfCell()), they lie on its two
-// sides, so that beyond the 2-face the one cell hides what the other one hid before.
+// Finds the 2-faces at which cells may begin or cease to hide what lies behind them. If the projections of the two
+// cells of a 2-face have the same sign (see orientationSignOfCell()), the cells lie on opposite sides of the 2-face.
+// One cell then hides beyond the 2-face what the other cell hid before it, so the 2-face is left out.
 void OcclusionFinder::findSilhouetteFaces(const std::vector<bool>& hides) {
     const geometry::CellComplex& p = *complex_;
     silhouetteFaces_.clear();

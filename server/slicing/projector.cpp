@@ -143,11 +143,14 @@ void Projector::project(const Object& object, const geometry::Rotation& orientat
             out.vertices.push_back(place(v));
             out.vertexSource.push_back(edges + v);
         }
-        if (selection.unhidden != nullptr) addEdgeParts(p, *selection.unhidden, number_, place, out);
-        for (std::uint32_t e = 0; e < edges && selection.unhidden == nullptr; ++e) {
-            if (edgeNumber_[e] == kNone) continue;
-            out.edges.push_back({number_[p.edges[e][0]], number_[p.edges[e][1]]});
-            out.edgeSource.push_back(faces + e);
+        if (selection.unhidden != nullptr) {
+            addEdgeParts(p, *selection.unhidden, number_, place, out);
+        } else {
+            for (std::uint32_t e = 0; e < edges; ++e) {
+                if (edgeNumber_[e] == kNone) continue;
+                out.edges.push_back({number_[p.edges[e][0]], number_[p.edges[e][1]]});
+                out.edgeSource.push_back(faces + e);
+            }
         }
         for (std::uint32_t f = 0; drawn && f < faces; ++f) {
             if (!selection.face(p, f)) continue;

@@ -45,11 +45,14 @@ class Projector {
         /// 2-faces. The loop of a 2-face that is not convex may cross itself, and that of a surface need not be flat;
         /// FaceFiller fills such loops.
         bool cells = false;
-        /// Whether to leave out what the 4-D eye cannot see: the elements that belong only to cells whose outer sides
-        /// are turned away from it, which are all of a convex object, and of any other object also those that lie
-        /// behind other cells (see OcclusionFinder::find()): 2-faces as a whole, edges in part. If cells are hidden,
-        /// the eye sees the inner sides of cells through the gaps: then leaves out what belongs only to hidden cells
-        /// and, also of a convex object, what lies behind the others. Leaves out nothing if the object has no cells.
+        /// Whether to leave out what the 4-D eye cannot see. This depends on the object:
+        /// - Of a convex object, the elements are left out that belong only to cells whose outer sides are turned away
+        ///   from the eye.
+        /// - Of another object, what lies behind other cells is left out, too: whole 2-faces, and parts of edges (see
+        ///   OcclusionFinder::findDrawnElements()).
+        /// - If cells are hidden, the eye sees the inner sides of other cells through the gaps. What belongs only to
+        ///   hidden cells is left out, and what lies behind the cells that are not hidden.
+        /// - Of an object without cells, nothing is left out.
         bool culled = false;
         /// The types of cells that are hidden, and therefore hide nothing: sorted indices into ObjectInfo::cellTypes.
         std::span<const std::uint32_t> hiddenTypes = {};

@@ -23,7 +23,7 @@ struct SurfaceDetail {
     /// surfaces of this slice are not needed. Empty if no surfaces are needed.
     std::vector<double> steps;
     /// The quality determines the limits on time and on the number of points. In drafts, surfaces may lack details of
-    /// the function that are smaller than the lattice steps (see ScalarFunction::versionForSteps()).
+    /// the function that are smaller than the lattice steps (see ScalarFunction::downsampledForSteps()).
     Quality quality = Quality::full;
     /// Per slice: the distance between neighboring lattice points of the fog; 0 if it is not needed. Empty if no fog is
     /// needed.

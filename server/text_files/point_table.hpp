@@ -26,9 +26,9 @@ struct PointTableOptions {
     bool radii = false;  ///< whether the points may have radii
 };
 
-/// Reads a table of points and calls `add` for each row. `text` must be a result of plainText(). Returns warnings, for
-/// example about columns that were left out. Throws a FileError if the table violates a rule below, or has more than
-/// PointTableOptions::maxPoints rows.
+/// Reads a table of points and calls `add` for each row. `text` must be a result of decodePlainText(). Returns
+/// warnings, for example about columns that were left out. Throws a FileError if the table violates a rule below, or
+/// has more than PointTableOptions::maxPoints rows.
 ///
 /// - The separator of columns is the first of these that fits: a tab, if every row has at least four numbers between
 ///   tabs; a semicolon, if there is one inside a row; a comma, if there is one inside a row and the commas cannot be

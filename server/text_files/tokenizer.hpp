@@ -11,7 +11,7 @@
 namespace oval4d::text_files {
 
 /// A tokenizer that splits a text into words at white space. Skips comments, which extend from # to the end of the
-/// line. The text must be a result of plainText(), and must outlive the tokenizer and the words.
+/// line. The text must be a result of decodePlainText(), and must outlive the tokenizer and the words.
 class Tokenizer {
   public:
     explicit Tokenizer(std::string_view text) : text_(text) {}

@@ -102,7 +102,7 @@ class FormulaParser {
 
   private:
     // An operand whose sign is not yet in the tree. The parser moves signs out of products, and turns a + −b into a − b
-    // and a − −b into a + b. Therefore toText() never needs to write "--".
+    // and a − −b into a + b. Therefore formulaText() never needs to write "--".
     struct SignedOperand {
         Index node;
         bool isNegative;

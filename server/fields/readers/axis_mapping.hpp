@@ -79,7 +79,7 @@ class AxisMapping {
     /// Returns the samples of the array. `bytes` is the part of the file that stores the numbers in the format
     /// `format`; it must contain at least count() numbers. Uses the bytes in place if they are aligned, in order (see
     /// isInMemoryOrder()), and plain 32-bit floats (see NumberFormat::needsNoConversion()) in this processor's byte
-    /// order. Otherwise, converts them. Errors: those of SampleBuffer::of().
+    /// order. Otherwise, converts them. Errors: those of SampleBuffer::allocate().
     Result<SampleStorage> samples(const FileContents& file, std::span<const std::byte> bytes,
                                   const NumberFormat& format, const FieldReadOptions& options) const;
 

@@ -10,8 +10,8 @@
 
 namespace oval4d::net {
 
-/// Returns the names of DataFolder::names(). If the folder must be read, a load worker reads it, because the folder may
-/// be on a slow disk or a network drive. Throws QueueFull if too many jobs are waiting.
+/// Returns the names of DataFolder::entryNames(). If the folder must be read, a load worker reads it, because the
+/// folder may be on a slow disk or a network drive. Throws QueueFull if too many jobs are waiting.
 boost::asio::awaitable<std::vector<std::string>> dataFolderNames(Services services, ClientAccountPtr client);
 
 }  // namespace oval4d::net

@@ -27,7 +27,7 @@ class MeteredSession {
 
   private:
     const ClientAccountPtr client_;
-    std::size_t objectMemory_;             // result of session::ownObjectMemory(), in bytes
+    std::size_t objectMemory_;             // result of session::unsharedMemoryOfObjects(), in bytes
     ByteBudget::Reservation reservation_;  // covers objectMemory_ and the undo history
 };
 

@@ -35,8 +35,8 @@ struct ImportedPolytope {
                                         ///< rounding
 };
 
-/// Reads a polytope from the bytes of a text file (see text_files::plainText()) and gives it the name `name`. Returns a
-/// FileError if the file is not accepted.
+/// Reads a polytope from the bytes of a text file (see text_files::decodePlainText()) and gives it the name `name`.
+/// Returns a FileError if the file is not accepted.
 ///
 /// A 4OFF file consists of the keyword 4OFF, or C4OFF, N4OFF or ST4OFF, in upper or lower case; the numbers of
 /// vertices, 2-faces, edges and cells; a line x y z w for each vertex; a line for each 2-face, with the number of its
@@ -64,13 +64,13 @@ std::variant<ImportedPolytope, FileError> importPolytope(PolytopeFileFormat form
                                                          std::string name, const ImportLimits& limits,
                                                          const geometry::Centering& centering = {});
 
-/// Imports a polytope like importPolytope(), but `text` must be a result of text_files::plainText().
+/// Imports a polytope like importPolytope(), but `text` must be a result of text_files::decodePlainText().
 std::variant<ImportedPolytope, FileError> importPlainText(PolytopeFileFormat format, std::string_view text,
                                                           std::string name, const ImportLimits& limits,
                                                           const geometry::Centering& centering = {});
 
 /// Guesses the format of a file: 4OFF if its first word contains "OFF" in upper or lower case, else a list of points.
-/// `text` is the text of the file (see text_files::plainText()).
+/// `text` is the text of the file (see text_files::decodePlainText()).
 PolytopeFileFormat detectFileFormat(std::string_view text);
 
 }  // namespace oval4d::polytopes

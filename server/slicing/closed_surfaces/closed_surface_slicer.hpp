@@ -98,7 +98,7 @@ class ClosedSurfaceSlicer {
         std::array<double, 5> heights, values;  // per corner: its height above the hyperplane, and its value
         std::array<std::array<PentatopeEdgeCrossing, 5>, 5>
             crossings;  // [i][j], for i < j: the crossing of the edge between corners i and j
-        bool positive;  // the orientation of the pentatope: the argument `positive` of sectionOf()
+        bool positive;  // the orientation of the pentatope: the argument `positive` of pentatopeSection()
     };
 
     double movedIntoDomain(double w) const;
