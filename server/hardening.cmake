@@ -3,7 +3,7 @@
 include(CheckCXXCompilerFlag)
 include(CheckLinkerFlag)
 
-set(CMAKE_REQUIRED_FLAGS -Werror) # Clang only warns about a flag for another processor
+set(CMAKE_REQUIRED_FLAGS -Werror) # Clang only warns about a flag for another processor, so the check needs errors
 
 # Stack protector: functions with arrays detect an overwritten return address. Control-flow protection: indirect jumps
 # may lead only to marked instructions (Intel CET; BTI and pointer authentication on ARM).
@@ -16,9 +16,9 @@ foreach(flag -fstack-protector-strong -fcf-protection=full -mbranch-protection=s
 endforeach()
 unset(CMAKE_REQUIRED_FLAGS)
 
-# The C library checks calls that write to memory (memcpy, sprintf ...) if the compiler knows the size of the buffer,
-# for which it must optimize. Not with sanitizers: they make the same checks more thoroughly, but only if the C library
-# does not check first.
+# The C library checks calls that write to memory (memcpy, sprintf ...) if the compiler knows the size of the buffer.
+# The compiler finds out this size only when it optimizes. Sanitizers make the same checks more thoroughly, but only if
+# the C library does not check first, so these flags are omitted with sanitizers.
 if(NOT OVAL4D_SANITIZE)
   add_compile_options("$<$<CONFIG:Release,RelWithDebInfo,MinSizeRel>:-U_FORTIFY_SOURCE;-D_FORTIFY_SOURCE=3>")
 endif()

@@ -44,8 +44,8 @@ int main(int argc, char** argv) {
     oval4d::ExportOutputOptions exportOptions;
     CLI::App* exporting = app.add_subcommand("export", "Write a slice or the oval as a file for other programs");
     oval4d::addExportOptions(*exporting, exportOptions);
-    // The server starts this program as a child process with these hidden subcommands. Child processes read their
-    // options from environment variables.
+    // The server starts this program again as child processes, with the next two subcommands, which --help does not
+    // show. The child processes read their options from environment variables.
     const CLI::App* draw = app.add_subcommand(oval4d::raster::kRasterizerCommand)->group("");
     const CLI::App* read = app.add_subcommand(oval4d::file_reading::kFileReaderCommand)->group("");
     app.require_subcommand(0, 1);

@@ -1,6 +1,6 @@
 # shellcheck shell=bash
 # Functions that server/build, tests/run and other scripts share: they install packages, configure and compile, and show
-# progress briefly. Bash scripts source this file, with `root` set to the top folder of the project.
+# the progress in one line. Bash scripts source this file, with `root` set to the top folder of the project.
 
 logs=${root:?must be the top of the project}/build/log
 mkdir -p "$logs"
@@ -14,16 +14,17 @@ die() {
     exit 1
 }
 
-# show_progress <log>: keeps showing the last line of a growing log on the terminal, until killed or the script ends.
+# show_progress <log>: keeps showing the last line of a growing log on the terminal. Ends when it is killed or when the
+# script ends.
 show_progress() {
     while sleep 0.5 && kill -0 $$ 2>/dev/null; do
         printf '\r\e[K  %s' "$(tail -c 400 "$1" | tail -n 1 | cut -c "1-$(($(tput cols) - 4))")" >&2
     done
 }
 
-# step <log> <what> <command …>: says <what> is being done, runs the command, and writes its output to
-# build/log/<log>.log. Shows progress on a terminal, unless `unattended` is set. If the command fails, prints the end of
-# the log and returns the command's status.
+# step <log> <what> <command …>: prints <what>, runs the command, and writes the command's output to
+# build/log/<log>.log. Shows progress on a terminal, unless `unattended` is set. Returns the command's status; if the
+# command fails, first prints the end of the log.
 step() {
     local log=$logs/$1.log what=$2 status=0 progress=
     shift 2
@@ -144,8 +145,8 @@ compile() {
     step "compile-$1" "compiling build/$1" cmake --build "$root/build/$1" --parallel "$(compile_jobs)" --target "${@:2}"
 }
 
-# build_sanitized <asan-ubsan|tsan> <targets …>: builds the targets with sanitizers. For the fuzzers, asan-ubsan needs
-# Clang, in the version whose runtime libraries tests/packages/fuzz.txt names.
+# build_sanitized <asan-ubsan|tsan> <targets …>: builds the targets with sanitizers. With asan-ubsan, uses Clang, which
+# the fuzzers need, in a version whose runtime libraries tests/packages/fuzz.txt names.
 build_sanitized() {
     local compiler=() clang
     if [[ $1 == asan-ubsan ]]; then

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Writes an exact unsteady solution of the Navier–Stokes equations to a NetCDF file, shows its speed as a field whose
-axis w is time, and saves a picture.
+"""Writes the speed of an exact unsteady solution of the Navier–Stokes equations to a NetCDF file. Then shows the speed
+as a field, whose axis w is time, and saves a picture.
 
 C. R. Ethier and D. A. Steinman, "Exact fully 3D Navier–Stokes solutions for benchmarking", International Journal for
 Numerical Methods in Fluids 19 (1994), 369–375. Needs python3-numpy, and python3-netcdf4 or python3-scipy."""
@@ -9,12 +9,11 @@ from oval4d_client import connect
 
 A, D = numpy.pi / 4, numpy.pi / 2  # the parameters a and d in the paper of Ethier and Steinman
 FILE = "ethier_steinman.nc"
-SIZE, MOMENTS, DURATION = 48, 24, 0.6  # samples along x, y and z; number of moments; time of the last one
+SIZE, MOMENTS, DURATION = 48, 24, 0.6  # samples along each of x, y and z; number of moments; time of the last moment
 
 
 def velocity(x, y, z, t):
-    """Returns the three components of the velocity at (x, y, z), from −1 to 1 along each axis, at the time t. The
-    viscosity is 1."""
+    """Returns the three components of the velocity at the point (x, y, z) and the time t, for the viscosity 1."""
     def component(p, q, r):
         return -A * (numpy.exp(A * p) * numpy.sin(A * q + D * r) + numpy.exp(A * r) * numpy.cos(A * p + D * q))
 
@@ -23,8 +22,8 @@ def velocity(x, y, z, t):
 
 
 def create_netcdf(path):
-    """Opens a new NetCDF file with the library that is installed. Returns the file, and a function that adds a
-    variable."""
+    """Creates a NetCDF file with netCDF4 or, if this library is not installed, with scipy. Returns the file, and a
+    function that adds a variable of 32-bit floats to it."""
     try:
         from netCDF4 import Dataset
         file = Dataset(path, "w", format="NETCDF3_64BIT_OFFSET")

@@ -1,18 +1,20 @@
 #!/usr/bin/env python3
-"""Simulates a reaction of two substances in a cube (Gray and Scott, 1984), and shows it while it runs: each moment is
-added to the field at the end of w. Takes a minute or two. Open the printed address to watch. Needs python3-numpy."""
+"""Simulates a reaction of two substances in a cube (Gray and Scott, 1984), and shows the reaction while it runs: each
+new moment is added to a field at the end of its axis w. Takes a minute or two. Open the printed address to watch. Needs
+python3-numpy."""
 import sys
 
 import numpy
 from oval4d_client import connect
 
 URL = "http://127.0.0.1:8080/"
-SIZE, MOMENTS, STEPS = 64, 100, 40  # samples along each axis; moments; time steps per moment
+SIZE, MOMENTS, STEPS = 64, 100, 40  # samples along each axis; number of moments; time steps between two
 DIFFUSION_U, DIFFUSION_V, FEED, KILL = 0.16, 0.08, 0.035, 0.060
 
 
 def laplacian(values):
-    """Returns the sum of the six neighbors minus six times the value. Opposite sides of the cube are joined."""
+    """Returns for each sample the sum of its six neighbors minus six times its value. The samples on opposite sides of
+    the cube are neighbors."""
     return sum(numpy.roll(values, step, axis) for axis in range(3) for step in (1, -1)) - 6 * values
 
 
@@ -31,7 +33,7 @@ def seed(random):
 
 
 def simulate(moments, steps):
-    """Yields the amounts of the second substance at each moment."""
+    """Yields for each moment the array of the amounts of the second substance."""
     substances = seed(numpy.random.default_rng(4))
     yield substances[1]
     for _ in range(1, moments):

@@ -1,9 +1,12 @@
 #!/usr/bin/env python3
-"""Prepares an array that is larger than memory for the data folder of oval4d servers: as a Zarr folder with coarser
-levels (OME-Zarr 0.4), or as one .npy file that servers map without a copy. Needs python3-dask and python3-zarr.
+"""Converts an array, which may be larger than memory, for the data folder of oval4d servers. The result is a Zarr
+folder with coarser levels (OME-Zarr 0.4), or one .npy file, which servers map into memory. Needs python3-dask and
+python3-zarr.
 
-    large_field.py run.zarr large/run        # a folder of levels; the source may also be .npy, or path/to/folder::array
-    large_field.py run.zarr large/run.npy
+    large_field.py run.zarr large/run        # writes a Zarr folder
+    large_field.py run.zarr large/run.npy    # writes a .npy file
+
+The source is a Zarr array, path/to/folder::array in a Zarr folder, or a .npy file.
 """
 import json
 import sys
@@ -13,13 +16,13 @@ import dask.array
 import numpy
 import zarr
 
-CHUNK = (1, 128, 128, 128)  # t z y x, 8 MB; the server reads whole chunks
-SMALLEST = 1 << 24          # a level with at most this many samples gets no coarser level
+CHUNK = (1, 128, 128, 128)  # samples of a chunk along t, z, y and x: 8 MiB; the server reads whole chunks
+SMALLEST = 1 << 24          # samples; a level with at most this many gets no coarser level
 
 
 def source_of(name):
-    """Returns the source as a lazy array t z y x of 32-bit floats. To read another format, such as HDF5, return
-    dask.array.from_array(h5py_dataset) instead."""
+    """Returns the source as a lazy array of 32-bit floats with the axes t, z, y and x. To read another format, such as
+    HDF5, return dask.array.from_array(h5py_dataset) instead."""
     path, _, variable = name.partition("::")
     if path.endswith(".npy"):
         array = dask.array.from_array(numpy.load(path, mmap_mode="r"), chunks=CHUNK)
@@ -30,15 +33,16 @@ def source_of(name):
 
 
 def downsampled(array):
-    """Returns the means of 2 × 2 × 2 × 2 samples. An axis with one sample stays; an odd sample at the end of an axis is
-    left out."""
+    """Returns the array at half the resolution: each value is the mean of 2 × 2 × 2 × 2 samples. An axis with one
+    sample is not halved. If an axis has an odd number of samples, the last one is left out."""
     axes = {axis: 2 for axis, size in enumerate(array.shape) if size > 1}
     return dask.array.coarsen(numpy.mean, array, axes, trim_excess=True).astype("<f4")
 
 
 def write_levels(array, folder):
-    """Writes each level from the level before it, so that the source is read only once."""
-    group = zarr.open_group(zarr.NestedDirectoryStore(folder), mode="w")  # for chunk t/z/y/x: one folder per index
+    """Writes the array and its coarser levels to a Zarr folder. Each level is computed from the level before it, so
+    that the source is read only once."""
+    group = zarr.open_group(zarr.NestedDirectoryStore(folder), mode="w")  # the file of a chunk is t/z/y/x
     first, levels, steps = numpy.zeros(4), [], numpy.ones(4)
     while True:
         path = str(len(levels))
@@ -51,7 +55,7 @@ def write_levels(array, folder):
         if array.size <= SMALLEST:
             break
         halved = numpy.array([2 if size > 1 else 1 for size in array.shape])
-        first, steps = first + steps * (halved - 1) / 2, steps * halved  # a mean lies in the middle of its samples
+        first, steps = first + steps * (halved - 1) / 2, steps * halved  # the place of a mean is the middle of its samples
         array = downsampled(dask.array.from_array(level, chunks=chunk))
     group.attrs["multiscales"] = [{"version": "0.4", "axes": [
         {"name": "t", "type": "time"}, *({"name": name, "type": "space"} for name in "zyx")], "datasets": levels}]

@@ -6,13 +6,13 @@
         oval.rotate("xw,yz", 0.39, 1.42)
         open("24-cell.png", "wb").write(oval.frame(1280, 720))
 
-../README.md specifies the messages and their members. request() sends any message; the other methods send some of them,
-and are shorter or convert values. Needs python3-websockets (10 or later), python3-cbor2 for slices in CBOR, and
-python3-msgpack (1.0 or later) for slices in MessagePack. With python3-numpy, arrays can be shown as fields, and the
-surfaces in slices are numpy arrays. A separate thread handles the socket. Therefore any thread may call the client, and
-the connection stays open while a script is idle.
+../README.md specifies the messages and their members. request() sends any message. The other methods are for single
+types of messages: they are shorter to call, or convert values. Needs python3-websockets (10 or later), python3-cbor2
+for slices in CBOR, and python3-msgpack (1.0 or later) for slices in MessagePack. With python3-numpy, arrays can be
+shown as fields, and the surfaces in slices are numpy arrays. A separate thread handles the socket. Therefore any thread
+may call the client, and the connection stays open while a script is idle.
 
-The package oval4d_messages beside it has the types of messages. Only type checkers and editors need it.
+The package oval4d_messages beside this file has the types of messages. Only type checkers and editors need it.
 
 This file is long, because the client is one file, so that a project can copy it.
 """
@@ -63,22 +63,23 @@ if TYPE_CHECKING:
 
 SUBPROTOCOL = "oval4d.v1"
 PNG = b"\x89PNG\r\n\x1a\n"
-# The type codes of array.array for typed arrays. The keys are CBOR tags (RFC 8746); in MessagePack, they are extension
-# types.
+# The type codes of array.array for the typed arrays in slices messages. The keys are the CBOR tags of the typed arrays
+# (RFC 8746); in MessagePack, the same numbers are extension types.
 ARRAY_TYPES = {64: "B", 69: "H", 70: "I", 85: "f", 86: "d"}
-# The type codes of array.array for numbers in BJData. The keys are the markers of the numbers.
+# The type codes of array.array for numbers in BJData. The keys are the markers that precede the numbers.
 BJDATA_TYPES = {b"i": "b", b"U": "B", b"I": "h", b"u": "H", b"l": "i", b"m": "I", b"L": "q", b"M": "Q", b"d": "f",
                 b"D": "d"}
-# The numpy types of the arrays that describe a surface.
+# The numpy types of the arrays that describe a surface. The keys are the names of the arrays.
 SURFACE_TYPES = {"points": "f4", "normals": "f4", "triangles": "u4", "level": "u1", "cap": "u1", "colors": "u4",
                  "cap_colors": "u4"}
-MAX_DATA = 1 << 20  # bytes: a larger array file is uploaded by HTTP instead of being sent in a message
-RECONNECT_CODES = {None, 1001, 1006, 1012, 1013}  # after these close codes, or no code, the client reconnects
-RETRY_ERRORS = {"later_version", "internal"}  # a session exists although the server refuses a hello with these errors
+MAX_DATA = 1 << 20  # bytes: the file of a larger array is always uploaded by HTTP, never sent in a message
+RECONNECT_CODES = {None, 1001, 1006, 1012, 1013}  # the client reconnects after these close codes; None: without a code
+RETRY_ERRORS = {"later_version", "internal"}  # if hello is refused with these, the session exists: it is tried again
 
 
 class Refused(Exception):
-    """The server refused a request; `code` is one of ../errors.json or, after an upload, an HTTP status."""
+    """The server refused a request. `code` is one of ../errors.json or, after an upload, perhaps an HTTP status such as
+    "502"."""
 
     def __init__(self, code, message):
         super().__init__(f"{code}: {message}")
@@ -118,16 +119,18 @@ def _to_json(message):
 
 
 def connect(url: str = "http://127.0.0.1:8080/", session: Optional[str] = None, **options: Any) -> Client:
-    """Connects to the server at `url` (http, https, ws or wss), and returns a Client. Opens the session with the name
-    `session`. Without a name, `url` may be a link that the page's button Share has copied: it names a session, and
-    hello() sends its token. Otherwise opens a new session, in which hello() shows the view of the query of `url`, such
-    as "?polytope=24-cell". The options are those of Client. Raises ValueError if the link is damaged."""
+    """Connects to the server at `url` (http, https, ws or wss), and returns a Client. Opens the session that `session`
+    names or, if it is None, the session to which `url` is a link. The page's button Share copies such links; hello()
+    sends the token in the link. If there is neither, opens a new session. If the query of `url` describes a view, such
+    as "?polytope=24-cell", hello() shows this view in a new session. The options are those of Client. Raises ValueError
+    if the link to a session is damaged."""
     shared = dict(parse_qsl(urlsplit(url).fragment, keep_blank_values=True))
     if shared and not (shared.get("session") and shared.get("token")):
         raise ValueError("the link to a shared session is damaged: it must end in #session=…&token=…")
     session = session or shared.get("session")
     parts = urlsplit(url)
-    # A token in the query belongs to the server, not to a session.
+    # A token in the query is the one that the server requires of all clients. The token of a session is in the
+    # fragment.
     access = [part for part in parts.query.split("&") if part.startswith("token=")]
     has_view = not session and len(access) < len([part for part in parts.query.split("&") if part])
     address = socket_url(urlunsplit(parts._replace(query="&".join(access))), session)
@@ -144,15 +147,15 @@ def socket_url(url: str, session: Optional[str] = None) -> str:
 
 
 class Client:
-    """A connection to one session. `timeout` (seconds) applies to every call. If `show` is true, pictures of the stream
-    are acknowledged as soon as they arrive. `headers` are added to the HTTP request that opens the connection. `token`
-    is the token of an existing session. `view` is the query of an address; the first hello() shows the view that it
-    describes.
+    """A connection to one session. Every call waits at most `timeout` seconds. If `show` is true, pictures of the
+    stream are acknowledged as soon as they arrive. `headers` are added to the HTTP request that opens the connection.
+    `token` is the token of an existing session. `view` is the query of an address; the first hello() shows the view
+    that the query describes.
 
-    If the connection breaks, or the server closes it because the server stops, the client reconnects: at once, and then
-    with growing pauses, for `timeout` seconds, also while a server cannot open the session, such as one of an earlier
-    version than the one that has stored it. Calls wait in the meantime. A call that was in progress raises Closed,
-    because it is unknown whether the call took effect."""
+    If the connection breaks, or a server that stops closes it, the client tries to reconnect for `timeout` seconds,
+    with growing pauses. It also tries again if a server cannot open the session, for example because a later version of
+    oval4d has stored the session. New calls wait in the meantime. A call that was in progress raises Closed, because it
+    is unknown whether the call took effect."""
 
     def __init__(self, url, timeout=30, show=True, headers=None, token=None, view=""):
         self.timeout = timeout
@@ -164,20 +167,21 @@ class Client:
         self._hello = {}
         self._reconnecting = False
         self._closing = False
-        # The newest message or frame of each kind; None before the first one.
+        # The newest message of each type and the newest frame; None before the first one arrives.
         self.welcome: Optional[Welcome] = None
         self.newest_state: Optional[State] = None
         self.newest_slices: Optional[dict[str, Any]] = None
         self.newest_frame: Optional[bytes] = None
         self.errors: list[ErrorMessage] = []  # error messages that do not answer a call
         self._live = None  # set by live(); called with each frame of the stream
-        # The revision and bytes of a frame. It answers a call or belongs to the stream; the next message tells which.
+        # The revision and the bytes of a frame, until the next message shows whether the frame answers a call or
+        # belongs to the stream.
         self._held = None
         self.closed = None  # (code, reason) after the connection has ended for good
         self._ids = itertools.count(1)
-        self._waiting = {}  # by the id of each call in progress: its answer, or None before the answer arrives
+        self._waiting = {}  # the calls in progress: from the id to the answer, or to None before the answer arrives
         self._wants_bytes = set()  # ids of calls whose answer is a binary message, followed by a done
-        self._binary = None  # the newest frame or file; the done of a call may follow
+        self._binary = None  # the bytes of the newest frame or file; they answer a call if its done follows
         self._change = threading.Condition()
         self._loop = asyncio.new_event_loop()
         self._thread = threading.Thread(target=self._loop.run_forever, daemon=True)
@@ -218,8 +222,9 @@ class Client:
         return self.request("set", **settings)
 
     def restore(self, source) -> Done:
-        """Shows the state in a picture that oval4d has made, but starts no motion. `source` is the path of a PNG
-        file or of a state as JSON, the bytes of either, or a state as a dict. Raises ValueError if it has no state."""
+        """Sets all settings to those of a state, but starts neither turning nor playing. `source` is the state as a
+        dict, the path of a file, or the bytes of a file. The file is a picture by oval4d, which contains its state, or
+        a state as JSON. Raises ValueError if `source` contains no state."""
         if isinstance(source, (str, os.PathLike)):
             with open(source, "rb") as file:
                 source = file.read()
@@ -237,37 +242,39 @@ class Client:
         return self.request("address", query=query.removeprefix("?"))
 
     def address(self) -> str:
-        """Returns the query of an address that opens this view."""
+        """Returns the query of an address that opens the view of the session."""
         return self.get("address")["query"]
 
     def command(self, line: str) -> Done:
         return self.request("command", line=line)
 
     def load(self, name: str, data: str, format: str = "off", box=None, **members: Any) -> Done:
-        """Loads an object and shows it. `data` is the text of a file, or a formula. `box` is as in formula(); the other
-        members are those of the message `load`, such as axes."""
+        """Loads an object and shows it. `data` is the text of a file, the Base64 text of an array file, or a formula;
+        `format` says which. `box` is as in formula(). `members` are further members of the message `load`, such as
+        axes."""
         domain = {} if box is None else {"box": [[float(low), float(high)] for low, high in box]}
         return self.request("load", name=name, data=data, format=format, **domain, **members)
 
     def formula(self, formula: str, box=None, levels=None, inside: Optional[Inside] = None, name: str = "formula",
                 values: Optional[str] = None) -> Done:
-        """Shows the field of a formula of x, y, z and w, such as "x^2+y^2+z^2-w < a; a=0.5". `box` is its domain, four
+        """Shows the field of a formula of x, y, z and w, such as "x^2+y^2+z^2-w < a; a=0.5". `box` is its domain: four
         pairs of numbers; without it, all coordinates are from -2 to 2. `levels` are up to four values at which surfaces
-        are shown; without them, 0. `inside` is "below" or "above"; without it, "below". If `values` is given, a formula
-        such as "a*x", its values color the surfaces. All this is one step of undo. Raises Refused; if
-        only the levels or `inside` are refused, the field is shown nevertheless, without these."""
+        are shown; without them, 0. `inside` says on which side of a level the body lies: "below" or "above"; without
+        it, "below". `values` is a second formula, such as "a*x"; its values color the surfaces. One undo() reverts all
+        this. Raises Refused if the server refuses the formula, the levels or `inside`. If it refuses only the levels or
+        `inside`, the field is shown nevertheless."""
         colored = {} if values is None else {"values": values}
         return self._request_levels(self.load(name, formula, "formula", box, **colored), levels, inside)
 
     def field(self, name: str, array, axes: Optional[str] = None, spacing=None, origin=None, levels=None,
               inside: Optional[Inside] = None, values=None) -> Done:
-        """Shows a numpy array of 1 to 4 dimensions as a field. `axes` names the axis of each index; t means w. If it is
-        None, it is "tzyx" or, with fewer dimensions, the end of this. `spacing` (a number, or four along x, y, z and w)
-        is the distance between samples, and `origin` (four numbers) the place of the first one; without both, the
+        """Shows a numpy array of 1 to 4 dimensions as a field. `axes` names the axis of each index; t means w. Without
+        it, an array of n dimensions has the last n axes of "tzyx". `spacing` is the distance between samples: a number,
+        or four numbers along x, y, z and w. `origin` (four numbers) is the place of the first sample. Without both, the
         server chooses them. `levels` and `inside` are as in formula(), but without them, the level is in the middle of
-        the values, and the inside is above. If `values` is given, its values color the surfaces: another array of the
-        same shape, or a formula of x, y, z and w in the units of the box. A numpy array does not state its units;
-        upload() a NetCDF, HDF5 or NIfTI file that states them, and pictures name them (see state())."""
+        the values, and the inside is above. `values` colors the surfaces: another array of the same shape, or a formula
+        of x, y, z and w in the units of the box. A numpy array does not state its units. Pictures name the units only
+        if upload() reads them from a NetCDF, HDF5 or NIfTI file (see state())."""
         samples = _sample_array(array)
         axes = axes or "tzyx"[-samples.ndim :]
         box = None if spacing is None and origin is None else _box_of_array(samples.shape, axes, spacing, origin)
@@ -283,11 +290,12 @@ class Client:
     def upload(self, name: str, data, format: Optional[str] = None, axes: Optional[str] = None, box=None,
                variable: Optional[str] = None, append: bool = False, values: Optional[str] = None,
                values_variable: Optional[str] = None) -> Done:
-        """Uploads the file of an array by HTTP, and shows it as a field. `data` is its bytes, or a file that is open in
-        binary mode. `format` is "npy", "netcdf", "hdf5" or "nifti"; if it is None, the server detects it. `box` is as
-        in formula(). The formula `values`, or the array `values_variable` of the same file, colors the surfaces. If
-        `append` is true, adds the moments in the file, as append() does. Raises Refused, also for a file that is larger
-        than the server accepts."""
+        """Uploads an array file by HTTP, and shows its array as a field. `data` is the bytes of the file, or a file
+        that is open in binary mode. `format` is "npy", "netcdf", "hdf5" or "nifti"; if it is None, the server detects
+        it. `box` is as in formula(), and `axes` as in field(). `variable` names one of several arrays in the file. The
+        formula `values`, or the array `values_variable` of the same file, colors the surfaces. If `append` is true,
+        adds the moments in the file, as append() does. Raises Refused, also if the file is larger than the server
+        accepts."""
         flat = None if box is None else ",".join(repr(float(end)) for side in box for end in side)
         query = {"format": format, "axes": axes, "box": flat, "variable": variable, "values": values,
                  "values_variable": values_variable}
@@ -314,7 +322,7 @@ class Client:
         if isinstance(message, dict) and message.get("type") == "error":
             raise Refused(message["code"], message["message"])
         if answer.status != 200 or message is None:
-            reason = text.strip() if media == "text/plain" else answer.reason  # a proxy's page is HTML
+            reason = text.strip() if media == "text/plain" else answer.reason  # an HTML page of a proxy is not quoted
             if answer.status == 413:
                 reason += f": the server accepts files of at most {self.welcome['limits']['upload']} bytes"
             raise Refused(str(answer.status), reason)
@@ -355,9 +363,9 @@ class Client:
         return self.request("get", what=what, **size, **ground)
 
     def state(self) -> State:
-        """Returns a state message. Of a field from a file that states them, state()["field"] has the known units of its
-        axes and what its values measure: "units", such as {"x": "m", "w": "s"}, and "quantity", such as
-        {"name": "temperature", "unit": "K"}. What is not known is absent:
+        """Returns a state message. If a field comes from a file that states units, state()["field"] has "units", the
+        units of the axes, such as {"x": "m", "w": "s"}, and "quantity", what the values measure, such as {"name":
+        "temperature", "unit": "K"}. What the file does not state is absent:
 
             unit = oval.state()["field"].get("quantity", {}).get("unit", "")"""
         return self.get("state")
@@ -401,7 +409,8 @@ class Client:
         self._live = lambda png: handle.update(as_image(png))
 
     def at(self, x: float, y: float, width: Optional[int] = None, height: Optional[int] = None) -> At:
-        """Returns what the picture shows at the point (x, y), in pixels from the upper left corner."""
+        """Returns what the picture shows at the point (x, y), in pixels from the upper left corner. `width` and
+        `height` are the size of the picture in pixels; without them, the size in hello() applies."""
         size = {} if width is None else {"width": width, "height": height}
         return self.request("get", what="at", x=x, y=y, **size)
 
@@ -432,9 +441,9 @@ class Client:
         self.send({"type": "shown", "revision": revision})
 
     def wait(self, revision: int, timeout: Optional[float] = None) -> State:
-        """Waits for the picture of this revision or of a later one, or for the state if the stream is "none". Drafts of
-        fields do not count. Returns the newest state. Raises TimeoutError after `timeout` seconds (if it is None, after
-        those of the client), and Closed if the connection has ended."""
+        """Waits for the picture of this revision or of a later one, or for the state if the stream is "none". A picture
+        that is only a draft of a field does not count. Returns the newest state. Raises TimeoutError after `timeout`
+        seconds (if `timeout` is None, the client's own applies), and Closed if the connection has ended."""
 
         def arrived():
             newest = {"geometry": self.newest_slices, "frames": self.newest_frame and png_state(self.newest_frame)}
@@ -458,8 +467,8 @@ class Client:
     def request(self, type: str, **members: Any) -> Any: ...
 
     def request(self, type: str, **members: Any) -> Any:
-        """Sends a message of any type with an id, and returns the answer. Raises Refused if the answer is an error, Closed
-        if the connection ends, and TimeoutError if no answer arrives."""
+        """Sends a message of any type with an id, and returns the answer. Raises Refused if the answer is an error,
+        Closed if the connection ends, and TimeoutError if no answer arrives."""
         if type == "hello":
             self._stream = members.get("stream", "none")
             self._hello = members
@@ -551,7 +560,8 @@ class Client:
                 return
 
     async def _reconnect(self, end):
-        """Reconnects to the session, on any server that answers. Returns whether the connection is open again."""
+        """Reconnects to the session, on any server that answers at the URL. Returns whether the connection is open
+        again. `end` is the close code and the reason of the last connection."""
         last = time.monotonic() + self.timeout
         pause = 0.1
         parts = urlsplit(self._url)
@@ -586,8 +596,8 @@ class Client:
         return False
 
     def _handle_message(self, data):
-        """Handles a message. Returns the pictures that are now known to be of the stream, each with its revision. A frame
-        that arrives while a call waits for one is of the stream unless it is followed by the done of the call."""
+        """Handles a message. Returns the pictures that are now known to belong to the stream, each with its revision. A
+        frame that arrives while a call waits for bytes belongs to the stream, unless the done of the call follows."""
         with self._change:
             message = decode(data)
             held, self._held = self._held, None
@@ -672,7 +682,7 @@ def _netcdf_file(arrays):
         return struct.pack(">ii", tag, len(items)) + b"".join(items)
 
     data = [values.astype(">f4").tobytes() for values in arrays.values()]
-    absent, number, dimension, variable = bytes(8), 5, 10, 11  # an empty list, and the tags of the NetCDF format
+    absent, number, dimension, variable = bytes(8), 5, 10, 11  # codes of the NetCDF format: an empty list, float32, two lists
 
     def header(begin):
         dimensions = [text(f"d{i}") + struct.pack(">i", size) for i, size in enumerate(shape)]
@@ -697,8 +707,8 @@ def _box_of_array(shape, axes, spacing, origin):
 
 
 def png_state(png: bytes) -> dict[str, Any]:
-    """Returns the state in a frame's iTXt chunk. Sent as a `set`, it restores the picture. Raises ValueError if the
-    bytes are not a frame with a state."""
+    """Returns the state that a PNG file by oval4d contains in an iTXt chunk. restore() shows it again. Raises
+    ValueError if the bytes are not a PNG file with a state."""
     at = len(PNG) if png.startswith(PNG) else len(png)
     while at + 12 <= len(png):
         size, kind = struct.unpack_from(">I4s", png, at)
@@ -716,9 +726,9 @@ def png_state(png: bytes) -> dict[str, Any]:
 
 
 def decode(data):
-    """Returns a message from the server: text and slices as a dict, as from_json(), from_cbor(), from_msgpack() and
-    from_bjdata() do, and the bytes of frames and files unchanged. Raises ValueError if no kind of binary message begins
-    as the bytes do, or if the bytes are not a message of their kind."""
+    """Decodes a message from the server. Returns a dict for text and for slices, as from_json(), from_cbor(),
+    from_msgpack() and from_bjdata() do, and the unchanged bytes for frames and files. Raises ValueError if no kind of
+    binary message begins as the bytes do, or if the bytes are not a message of their kind."""
     if isinstance(data, str):
         return from_json(data)
     # Kinds that are recognized by two bytes are tried before kinds that are recognized by one.
@@ -825,8 +835,8 @@ def from_bjdata(data):
 
 
 def _decode_slices(encoding, read, failure):
-    """Returns the slices message that read() decodes, with one dict per slice. Raises ValueError, which names the
-    encoding, if it is not such a message; `failure` is what read() then raises beside errors of Python."""
+    """Returns the slices message that read() decodes, with one dict per slice. Raises a ValueError that names the
+    encoding if read() decodes no such message. `failure` is the exception by which read() itself reports a fault."""
     try:
         message = read()
         message["slices"] = _slices_of(message["slices"])
@@ -859,7 +869,7 @@ def _split_by_sizes(flat, sizes, width=1):
 
 def _elements_of(columns):
     """Returns one dict per slice, or per part of the projection, with its elements. `columns` has one array per
-    property, with the values of all slices."""
+    property, with the values of all slices or parts."""
     counts = columns["counts"]
 
     def elements_of_lists(lists):
@@ -895,7 +905,7 @@ def _elements_of(columns):
 
 
 def _slices_of(columns):
-    """Returns one dict per slice."""
+    """Returns one dict per slice. `columns` has one array per property, with the values of all slices."""
     threes = [3] * len(columns["index"])
     properties = {name: columns[name] for name in ("index", "w", "label", "label_size", "focus", "drawn")}
     properties |= {name: [row.tolist() for row in _split_by_sizes(columns[name], threes)] for name in ("position", "label_at")}
@@ -912,7 +922,7 @@ def _slices_of(columns):
 
 
 def _fogs_of(columns):
-    """Returns one dict per slice with its fog."""
+    """Returns the fog of each slice as a dict. `columns` has one array per property, with the values of all slices."""
     sizes = _split_by_sizes(columns["size"], [1] * len(columns["step"]), 3)
     walls = _split_by_sizes(columns["walls"], columns["counts"]["walls"], 4)
     values = _split_by_sizes(columns["values"], [math.prod(map(operator.index, size)) for size in sizes])
@@ -930,7 +940,8 @@ def _fog_values(values, size):
 
 
 def _surfaces_of(columns):
-    """Returns one dict per slice with its surface."""
+    """Returns the surface of each slice as a dict. `columns` has one array per property, with the values of all
+    slices."""
     counts = columns["counts"]
 
     def shaped(flat, name, width):

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Turns the tiger, the product of two circles thickened to a tube, and prints the volume of each of its slices."""
+"""Turns a tiger, which is a tube around the product of two circles, and prints the volume of each slice that is not
+empty."""
 from math import pi
 
 from oval4d_client import connect

@@ -1,5 +1,5 @@
-// Memory for the typed arrays of one message, which the arrays of the next message overwrite. Its size is a power of
-// two, so messages of similar sizes need no new memory.
+// Memory for the typed arrays of one message. The arrays of the next message overwrite it. Its size is rounded up to a
+// power of two, so messages of similar sizes need no new memory.
 
 /** The class of a typed array, such as Float32Array. */
 export type TypedArrayConstructor<T> = {
@@ -29,7 +29,7 @@ export class Arena {
         return copied;
     }
 
-    /** Returns an array of `count` numbers with undefined contents. Returns undefined if the memory is too small. */
+    /** Returns an array of `count` numbers, which may have any values. Returns undefined if the memory is too small. */
     allocate<T>(count: number, arrayType: TypedArrayConstructor<T>): T | undefined {
         const size = arrayType.BYTES_PER_ELEMENT;
         const begin = Math.ceil(this.used / size) * size;

@@ -96,9 +96,10 @@ interface PendingRequest {
 
 const kProtocol = 1;
 const kSubprotocol = `oval4d.v${kProtocol}`;
-const kReconnectDelay = 0.1; // seconds after a connection has ended; short, as another server may have taken over
-const kFirstRetryDelay = 0.5; // seconds after the first failed attempt; doubled after each further failure
-const kMaxRetryDelay = 15; // seconds: the longest pause between two attempts
+// The next three constants are in seconds, and are multiplied by a random factor from 0.5 to 1.5.
+const kReconnectDelay = 0.1; // after an open connection has ended; short, as another server may have taken over
+const kFirstRetryDelay = 0.5; // after the first failed attempt to connect; doubled after each further failure
+const kMaxRetryDelay = 15; // the limit of the doubled delay
 const kOpeningTimeout = 5; // seconds within which a WebSocket must open
 const kWelcomeTimeout = 30; // seconds within which the server, which may have to read a session, answers the first hello
 const kProbeTimeout = 3; // seconds within which the server must answer over HTTP if no WebSocket opens
@@ -205,15 +206,15 @@ export class Client {
         Object.assign(this.settings, change);
         const { stream, encoding, viewport, scheme } = this.settings;
         const token = this.credentials?.token;
-        // A scheme is sent only if it is "light". Servers of earlier versions do not know this member, and draw dark
-        // pictures.
+        // The scheme is sent only if it is "light". Servers of earlier versions do not know this member, and draw only
+        // dark pictures.
         const own = { ...viewport, ...(scheme === "light" && { scheme }), ...(token !== undefined && { token }) };
         return this.request({ type: "hello", stream, encoding, ...own });
     }
 
     /**
-     * Sends a request, and resolves to its answer. Rejects with a RequestError if the server refuses it or it cannot be
-     * sent.
+     * Sends a request, and resolves to its answer. Rejects with a RequestError if the server refuses the request, or if
+     * there is no connection or it ends before the answer.
      */
     request<What extends GetRequest["what"]>(message: GetRequest & { what: What }): Promise<GetAnswer<What>>;
     request<Type extends keyof RequestAnswers>(message: Request & { type: Type }): Promise<RequestAnswers[Type]>;
@@ -332,7 +333,7 @@ export class Client {
     /** Tests the connection with a request. If the server does not answer in time, the connection counts as lost. */
     test(): void {
         if (this.status.kind !== "open") return;
-        const { unsentBytes } = this; // excludes the test's own bytes, which may be sent but never arrive
+        const { unsentBytes } = this; // before the test's own bytes, which may leave the buffer but never arrive
         this.request({ type: "get", what: "state" }).catch(() => {});
         this.awaitTestAnswer(unsentBytes);
     }

@@ -20,7 +20,7 @@ interface ElementColumns {
     sides: Integers;
     /** The indices of the vertices of all faces, one face after another. Indices start at 0 for each slice or part. */
     corners: Integers;
-    // The class Elements describes the following members.
+    // The interface Elements in slices.ts describes the following members.
 
     of: PerElementKind<Integers>;
     tints?: Integers;
@@ -73,14 +73,14 @@ export interface PartColumns extends ElementColumns {
     looks: ProjectionLook[];
 }
 
-/** A function that returns an array of `count` integers. Its contents may be undefined. */
+/** A function that returns an array of `count` integers, which may have any values. */
 export type IntegerAllocator = (count: number) => Uint32Array;
 
 type IndexRange = [begin: number, end: number];
 
 /**
  * Returns consecutive index ranges with these sizes, starting at index 0. Throws a RangeError if a size is not a whole
- * number from 0 on, or if the last range ends beyond `length`.
+ * number from 0 on, or if a range ends beyond `length`.
  */
 function rangesOfSizes(sizes: Integers, length: number): IndexRange[] {
     let end = 0;
@@ -108,8 +108,8 @@ function makeUint32Converter(allocate: IntegerAllocator): (integers: Integers) =
 }
 
 /**
- * Splits columns into the elements of each slice or part. The returned arrays are views of `columns`, or come from
- * `allocate`.
+ * Splits columns into the elements of each slice or part. The returned arrays are views of the arrays in `columns`, or
+ * come from `allocate`.
  */
 function elementsOf(columns: ElementColumns, allocate: IntegerAllocator): Elements[] {
     const wide = makeUint32Converter(allocate);
@@ -156,8 +156,8 @@ function elementsOf(columns: ElementColumns, allocate: IntegerAllocator): Elemen
 }
 
 /**
- * Converts the columns of slices to one object per slice. The arrays in the objects are views of `columns`, or come
- * from `allocate`.
+ * Converts the columns of slices to one object per slice. The arrays in the objects are views of the arrays in
+ * `columns`, or come from `allocate`.
  */
 export function slicesFromColumns(columns: SliceColumns, allocate: IntegerAllocator): Slice[] {
     const elements = elementsOf(columns, allocate);
@@ -182,8 +182,8 @@ export function slicesFromColumns(columns: SliceColumns, allocate: IntegerAlloca
 }
 
 /**
- * Converts the columns of the projection's parts to one object per part. The arrays are views of `columns`, or come
- * from `allocate`.
+ * Converts the columns of the projection's parts to one object per part. The arrays in the objects are views of the
+ * arrays in `columns`, or come from `allocate`.
  */
 export function partsFromColumns(columns: PartColumns, allocate: IntegerAllocator): ObjectProjection["parts"] {
     return elementsOf(columns, allocate).map((elements, i) => ({ ...columns.looks[i]!, ...elements }));

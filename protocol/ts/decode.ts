@@ -1,5 +1,5 @@
-// Decodes the server's text and binary messages. Decoded `slices` messages have the same typed arrays, whatever their
-// encoding.
+// Decodes the server's text and binary messages. `slices` messages in all encodings are decoded to the same type, which
+// slices.ts describes.
 
 import * as cborX from "cbor-x/decode-no-eval";
 
@@ -16,9 +16,9 @@ const { setSizeLimits } = cborX as unknown as {
     setSizeLimits: (limits: { maxArraySize: number; maxMapSize: number }) => void;
 };
 
-let arena: Arena | undefined; // memory for the arrays of the current message; see decodeBinary()
+let arena: Arena | undefined; // memory for the arrays of the message that decodeSlices() decodes at present
 
-/** The classes of typed arrays. The keys are CBOR tags (RFC 8746); in MessagePack, they are extension types. */
+/** The classes of typed arrays. The keys are CBOR tags (RFC 8746) and also extension types of MessagePack. */
 const kArrayTypes = new Map<number, TypedArrayConstructor<unknown>>([
     [64, Uint8Array],
     [69, Uint16Array],
@@ -28,8 +28,8 @@ const kArrayTypes = new Map<number, TypedArrayConstructor<unknown>>([
 ]);
 
 /**
- * Returns an array of the numbers in little-endian bytes. The array is a view of the bytes if they are aligned,
- * otherwise a copy.
+ * Returns an array of the numbers in little-endian bytes. The array is a view of the bytes if they are aligned for
+ * numbers of this type, otherwise a copy.
  */
 function typedArrayOf<T>(bytes: Uint8Array<ArrayBuffer>, arrayType: TypedArrayConstructor<T>): T {
     const size = arrayType.BYTES_PER_ELEMENT;
@@ -53,7 +53,7 @@ function readCbor(bytes: Uint8Array): unknown {
 
 const strictUtf8 = new TextDecoder("utf-8", { fatal: true });
 
-/** Reads a message in a binary encoding. At the end of the message, the functions of DataView throw a RangeError. */
+/** Reads a message in a binary encoding. Reading beyond the end of the message throws a RangeError. */
 abstract class BinaryReader {
     protected readonly view: DataView;
     private at = 0;
@@ -92,8 +92,8 @@ abstract class BinaryReader {
 /** Reads MessagePack. Its numbers are big-endian, which is the default of DataView. */
 class MsgpackReader extends BinaryReader {
     /**
-     * Reads the value at the current position. The first byte states the format of the value. It also contains small
-     * values and small sizes.
+     * Reads the value at the current position. The first byte states the format of the value; it also contains the
+     * value, or the size of the value, if this number is small.
      */
     protected override value(): unknown {
         const format = this.view.getUint8(this.skip(1));
@@ -130,15 +130,15 @@ class MsgpackReader extends BinaryReader {
         return size === 4 ? this.view.getInt32(at) : Number(this.view.getBigInt64(at));
     }
 
-    /** Reads an extension of `size` bytes. Returns a typed array if its type is in kArrayTypes, otherwise the bytes. */
+    /** Reads an extension of `size` bytes. Returns a typed array if kArrayTypes has its type, otherwise the bytes. */
     private extension(size: number): unknown {
         const arrayType = kArrayTypes.get(this.signed(1));
         const bytes = this.take(size);
         return arrayType ? typedArrayOf(bytes, arrayType) : bytes;
     }
 
-    // Adds the items one by one instead of allocating `count` items first: a damaged message may announce more items
-    // than it contains.
+    // array() and map() add the items one by one instead of allocating `count` items first: a damaged message may
+    // announce more items than it contains.
 
     private array(count: number): unknown[] {
         const items: unknown[] = [];
@@ -162,7 +162,7 @@ function readMsgpack(bytes: Uint8Array): unknown {
     return new MsgpackReader(bytes as Uint8Array<ArrayBuffer>).message();
 }
 
-/** The classes of typed arrays in BJData. The keys are the markers of their numbers. */
+/** The classes of typed arrays in BJData. The keys are the markers that name the type of the numbers. */
 const kBjdataArrayTypes = new Map<string, TypedArrayConstructor<unknown>>([
     ["U", Uint8Array],
     ["u", Uint16Array],
@@ -202,7 +202,7 @@ class BjdataReader extends BinaryReader {
         throw new Error(`a message in BJData has a value with the unknown marker ${JSON.stringify(marker)}`);
     }
 
-    /** Returns a length. A negative length would move the position back, and reading would never end. */
+    /** Reads a length. Refuses a negative one, which would move the position back, so that reading never ends. */
     private countAfter(marker: string): number {
         const count = this.numberAfter(marker);
         if (!Number.isInteger(count) || count < 0) throw new Error("a length in BJData is not a whole number");
@@ -283,7 +283,7 @@ export function decodeBinary(bytes: Uint8Array, within?: Arena): Message | "file
 }
 
 function decodeSlices(bytes: Uint8Array, read: (bytes: Uint8Array) => unknown, within?: Arena): Message {
-    // Six times the message's size is enough memory: arrays are copied, and 1-byte integers become 4-byte integers.
+    // Six times the message's size is enough memory to copy all arrays and to widen 1-byte integers to 4 bytes.
     within?.startMessage(6 * bytes.length);
     arena = within;
     try {
@@ -300,8 +300,8 @@ function isPng(bytes: Uint8Array): boolean {
 }
 
 /**
- * The text of the uncompressed iTXt chunk with this keyword in a PNG file. Undefined if the file has no such chunk or
- * is cut off.
+ * Returns the text of the uncompressed iTXt chunk with this keyword in a PNG file. Returns undefined if the file has no
+ * such chunk or is cut off.
  */
 export function pngText(png: Uint8Array, keyword = "oval4d"): string | undefined {
     const view = new DataView(png.buffer, png.byteOffset, png.byteLength);
@@ -326,7 +326,7 @@ export function pngText(png: Uint8Array, keyword = "oval4d"): string | undefined
 
 type FlatOrNested<T> = T | number[] | number[][];
 
-/** The elements of a slice, or of a part of the projection, in the JSON encoding. JSON has nested arrays. */
+/** The elements of a slice, or of a part of the projection, in the JSON encoding, where most arrays are nested. */
 interface JsonElements {
     vertices: number[][];
     edges: number[][];

@@ -1,6 +1,6 @@
 // The types of a decoded `slices` message. Long arrays of numbers are typed arrays, whatever the encoding. Angles are
-// in radians. Lengths are in the polytope's units unless world units are stated. In world units, the polytope's
-// circumradius is 1; in an oval with more than 21 slices it is smaller, and with fewer slices larger.
+// in radians. Lengths are in the polytope's units unless world units are stated. In an oval of 21 slices, the
+// polytope's circumradius is 1 in world units; it is smaller with more slices, and larger with fewer.
 
 import type { AxisUnits, Projection, View } from "./messages.js";
 import type { Parts, Vector, Viewport } from "./types.js";
@@ -38,7 +38,7 @@ export interface SceneDescription {
     bar: number;
     /** The opacity of a face, from 0 to 1. It is 1 if faces may cross each other or if the object is a surface. */
     opacity: number;
-    /** The factor on the opacity of balls, bars and faces that are faded. */
+    /** The opacity of faded balls, bars and faces (see `seen` in Elements) is multiplied by this number. */
     faded: number;
     /**
      * The light. `direction` points toward the light, in camera coordinates: x to the right, y up, z toward the viewer.
@@ -65,7 +65,8 @@ export interface SceneDescription {
      */
     surfaces?: SurfaceLevel[];
     /**
-     * The color of the fog, 0xAARRGGBB, for each value in Fog.values. In JSON, it is a plain array. Absent without fog.
+     * `table` has the color of the fog, 0xAARRGGBB, for each value in Fog.values. In JSON, `table` is a plain array.
+     * Absent without fog.
      */
     fog?: { table: Integers };
     /** For a field: the known units of the axes after the rotation. Absent if no unit is known. */
@@ -79,10 +80,10 @@ export interface SceneDescription {
     axes: { x: number; y: number; length: number };
     /**
      * The layout of the parallel coordinates, measured from the lower left corner. Vertex i is in row i / per_row (from
-     * the top) and column i % per_row. `zero` is the height of the zero line of the top row. `row_step`, `column_step`
-     * and `line_step` are the distances between rows, between columns, and between the four lines of a column. A
-     * coordinate c is drawn as a vertical line of length c · amplitude / circumradius. `named` tells whether names are
-     * written below the columns.
+     * the top) and column i % per_row. `left` is the left edge of the first column, and `zero` the height of the zero
+     * line of the top row. `row_step`, `column_step` and `line_step` are the distances between rows, between columns,
+     * and between the four lines of a column. A coordinate c is drawn as a vertical line of length
+     * c · amplitude / circumradius from the zero line. `named` tells whether names are written below the columns.
      */
     coordinates: {
         rows: number;
@@ -95,7 +96,7 @@ export interface SceneDescription {
         line_width: number;
         amplitude: number;
         named: boolean;
-        /** The number of columns of Slices.density; 0 if each coordinate is drawn as a line. */
+        /** The number of pixels in each row of Slices.density; 0 if each coordinate is drawn as a line. */
         columns: number;
         /** The width of each of the four panels of a field's histogram; 0 without a histogram. */
         panel: number;
@@ -124,7 +125,7 @@ export interface Surface {
     color?: number;
     /** The coordinates x, y, z, x, y, z, … of the points, in the coordinate system of the slice. */
     points: Float32Array;
-    /** The outward unit normal of the level set at each point. Caps do not use it, because they are flat. */
+    /** The outward unit normal of the level set at each point. Caps are drawn with their own normals: they are flat. */
     normals: Float32Array;
     /** Three indices of points for each triangle, counterclockwise as seen from outside. */
     triangles: Integers;
@@ -186,7 +187,8 @@ export interface Elements {
      * - a face: c if it was cut from cell c; (number of cells) + f if it is 2-face f of the polytope itself.
      *
      * A slice contains elements of the polytope itself if they lie in its hyperplane. The part of the projection that
-     * shows the whole object contains only such elements.
+     * shows the whole object contains only such elements, with one exception: where an edge ends because the rest of it
+     * is hidden, the vertex at this end has the number of a vertex that was cut from the edge.
      */
     of: { vertices: Uint32Array; edges: Uint32Array; faces: Uint32Array };
     /** The index of the cell that determines the color of each face. If absent, `of.faces` has these indices. */
@@ -196,7 +198,7 @@ export interface Elements {
     /**
      * For each vertex, the radius of its ball, as a multiple of scene.ball or, in the projection, of the part's `ball`;
      * and the opacity of the ball. Absent if all these numbers are 1. In the projection without shown.back, the opacity
-     * is 0 where an edge is cut off and at hidden corners.
+     * is 0 at hidden vertices, and where an edge ends because the rest of it is hidden.
      */
     balls?: { scale: Float32Array; opacity: Float32Array };
     /**
@@ -208,7 +210,7 @@ export interface Elements {
 
 export interface Slice extends Elements {
     /**
-     * The position of the slice. It lies in the hyperplane w = offset + index · spacing, with `offset` and `spacing`
+     * The number of the slice, which lies in the hyperplane w = offset + index · spacing, with `offset` and `spacing`
      * from the `slices` of the state. w is measured from the object's center.
      */
     index: number;
@@ -220,7 +222,7 @@ export interface Slice extends Elements {
     /** The world position of the slice's origin. A vertex p is drawn at position + scene.scale · p. */
     position: Vector;
     label: string;
-    /** The world position of the label. The label is centered below it. */
+    /** The point in world coordinates below which the label is centered. */
     label_at: Vector;
     /** The font size of the label, as a multiple of SceneDescription.text. It may exceed 1. */
     label_size: number;

@@ -28,7 +28,7 @@ export type HyperplaneSettings = State["slices"];
 /** An element of a polytope: its kind, and its number among the elements of this kind, counted from 0. */
 export type PolytopeElement = NonNullable<State["highlight"]>;
 
-/** The options of an exported file: the members of the message `get` that are used for nothing else. */
+/** The options of an exported file: the members of the message `get` that only exports use, such as `body`. */
 export type FileOptions = Omit<
     GetRequest,
     "type" | "id" | "what" | "width" | "height" | "background" | "highlight" | "x" | "y" | "point" | "format"

@@ -27,7 +27,8 @@ const exports::Format& outputFormatOf(const ExportOutputOptions& options) {
                                  : "no format is called " + text::inQuotes(name) + "; the formats are " + known);
 }
 
-/// Returns the names in a table of choices, separated by "|", such as "solid|skeleton". Leaves out aliases.
+/// Returns the names in a table of choices, separated by "|", such as "solid|skeleton". If several names have the same
+/// value, returns only the name that text::nameOf() returns for this value.
 template <typename Choices>
 std::string alternativesOf(const Choices& choices) {
     std::string out;

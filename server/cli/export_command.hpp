@@ -21,8 +21,8 @@ struct ExportOutputOptions {
 /// `options`. After parsing, `app.remaining()` returns the options that describe the state and the content of the file.
 void addExportOptions(CLI::App& app, ExportOutputOptions& options);
 
-/// Writes the file that the parsed command line describes. On failure, throws std::runtime_error with a message for the
-/// user.
+/// Writes the file that the parsed command line describes, and prints warnings about the file to standard error. On
+/// failure, throws std::runtime_error with a message for the user.
 void exportFile(const CLI::App& app, const ExportOutputOptions& options);
 
 }  // namespace oval4d

@@ -62,9 +62,9 @@ bool isZarr(const std::filesystem::path& folder) {
                                [&](std::string_view file) { return std::filesystem::exists(folder / file); });
 }
 
-/// Reads the object in a file, a Zarr folder, or a folder with a series of files. Maps files of arrays, which may be
-/// larger than the main memory. Removes the options that say how to read such an object from the query, for example
-/// "axes" for an array or "center" for a polytope.
+/// Reads the object in a file, a Zarr folder, or a folder with a series of files. Maps array files into memory, because
+/// they may be larger than the main memory. Removes from `query` the options that say how to read an object of this
+/// kind, for example "axes" for an array or "center" for a polytope.
 Result<session::ObjectWithWarnings> readFile(const std::string& path, session::QueryParameters& query) {
     const std::string fileName = std::filesystem::path(path).filename().string();
     const std::string name = session::objectNameFor(fileName, session::Limits{});
@@ -147,7 +147,7 @@ session::State stateFromFile(const std::string& path, session::QueryParameters& 
 }
 
 /// An option that says how to read files of one kind; `files` is the name of this kind in error messages. The options
-/// "box" and "values" are not in the list, because they also apply to formulas.
+/// "box" and "values" are not in kReadingOptions, because they also apply to formulas.
 struct FileKindOption {
     std::string_view name;
     std::string_view files;

@@ -17,14 +17,17 @@ namespace oval4d {
 /// order of the arguments. Throws std::runtime_error if an argument does not begin with "--" or has no value.
 session::QueryParameters queryFromArguments(const std::vector<std::string>& words);
 
-/// Returns the state that a query describes. The parameter "load" is the path of what to show: a file with an object, a
-/// Zarr folder, a folder with a series of files (see fields::readSeries()), a file with a `state` message, or a picture
-/// made by oval4d. A message or a picture contains a state. An object is shown in the initial state. All other
-/// parameters change this state, except those that say how to read the object: for an array, "axes", "box", "region",
-/// "variable", "values" and "values_variable"; for a polytope, a surface or a list of points, "center", the point about
-/// which the object turns.
-/// Prints warnings about the file to standard error. `others` are further options of the subcommand; the error message
-/// about an unknown option lists them, too. On failure, throws std::runtime_error with a message for the user.
+/// Returns the state that a query describes. The parameter "load" is the path of what to show:
+/// - an object: a file, a Zarr folder, or a folder with a series of files (see fields::readSeries()). It is shown in
+/// the
+///   initial state. Some parameters say how to read the object: for an array, "axes", "box", "region", "variable",
+///   "values" and "values_variable"; for a polytope, a surface or a list of points, "center", the point about which the
+///   object turns.
+/// - a state: a file with a `state` message, or a picture made by oval4d.
+///
+/// All other parameters change this state; without "load", they change the initial state. Prints warnings about the
+/// file to standard error. `others` are the names of further options of the subcommand, which the error message about
+/// an unknown option also lists. On failure, throws std::runtime_error with a message for the user.
 session::State loadState(session::QueryParameters query, std::span<const std::string_view> others);
 
 /// Returns the value of `result`. If `result` is an error, throws its message as a std::runtime_error.

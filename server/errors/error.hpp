@@ -23,10 +23,10 @@ enum class ErrorCode {
     bad_polytope,        ///< a loaded polytope is invalid
     bad_field,           ///< a loaded field (an array or a formula) is invalid
     unsupported_format,  ///< a loaded file has a format that the server does not read
-    /// The thing to export is empty or flat, has no room for its label, is not highlighted, or does not fit the file
-    /// format.
+    /// There is nothing to export: the body is empty or flat, its label has no room, no element is highlighted, or the
+    /// file format cannot contain what is requested.
     no_body,
-    nothing_to_undo,  ///< there is nothing to undo, redo, repeat or keep turning
+    nothing_to_undo,  ///< there is no step to undo or redo, or no rotation to repeat or to go on with
     hello_first,      ///< a message was sent before the message `hello`
     not_found,        ///< the session or resource does not exist
     bad_token,        ///< the token does not open this session
@@ -46,8 +46,8 @@ struct Error {
     std::string message;
 };
 
-/// A value, or the error that explains why there is none. Converts to true if it holds a value. Accessing the one that
-/// it does not hold throws std::bad_variant_access.
+/// A value, or the error that explains why there is none. Converts to true if it holds a value. Accessing the value if
+/// there is an error, or the error if there is a value, throws std::bad_variant_access.
 template <typename T>
 class [[nodiscard]] Result {
   public:

@@ -66,8 +66,8 @@ void arrangeInOval(std::vector<SliceBodies>& groups, const scene::Scene& scene, 
 
 double coordinateBound(int slices, double size) {
     const double onPlate = std::ceil(std::sqrt(slices)) * (size + gapBetweenBodies(size)) * 1.5;
-    // Neighboring slices are at least about `size` apart, so the size of the oval is proportional to a large number of
-    // slices. With few slices, the oval is as large as in the picture.
+    // Neighboring slices are at least about `size` apart, so beyond 21 slices, the oval grows in proportion to their
+    // number.
     const double inOval = 60.0 * size * std::max(1.0, slices / 21.0);
     return std::max(onPlate, inOval);
 }

@@ -100,11 +100,11 @@ class ExportBudget {
     std::size_t triangleLimit() const { return limits_.triangles; }
     /// Returns the maximum time of the whole export (ExportLimits::time).
     std::chrono::duration<double> time() const { return limits_.time; }
-    /// Returns the token by which a stop is requested.
+    /// Returns the token that says whether a stop is requested.
     std::stop_token stopToken() const { return stop_; }
 
   private:
-    static constexpr std::size_t kBytesOfTriangle = 64;  // approximate size of a triangle, in the file or in memory
+    static constexpr std::size_t kBytesOfTriangle = 64;  // approximate bytes of a triangle, in the file or in memory
 
     void requireMemory(std::size_t bytes) const {
         if (limits_.grantTotalBytes && !limits_.grantTotalBytes(bytes))

@@ -32,16 +32,16 @@ namespace oval4d::exports {
 
 namespace {
 
-// The width of the cubes from which skeletons are meshed, as a multiple of the bar radius. Cubes are kFineCube wide,
-// unless this gives more than kTargetTriangles triangles, or cubes of less than kGoodFieldStep grid steps. Then they
-// are wider, but at most kCoarseCube.
+// The least and the greatest width of the cubes from which skeletons are meshed, as multiples of the bar radius. Cubes
+// have the least width, unless they would then give more than kTargetTriangles triangles, or be narrower than
+// kGoodFieldStep grid steps (see marching.hpp). In these cases, they are wider.
 constexpr double kFineCube = 0.5;
 constexpr double kCoarseCube = 1;
 constexpr double kTargetTriangles = 600'000;
 
-// Returns an upper bound of the absolute coordinates in the file, in millimeters, for RoundingGrid. Without an oval,
-// the file shows one object or slice with a diameter of about `size`. The bound 2 · size leaves room for balls, bars, a
-// separate label, and the place of the body on the plate of a printer.
+// Returns an upper bound of the absolute coordinates in the file, in millimeters, for RoundingGrid. If the file does
+// not contain an oval, it contains one object or slice with a diameter of about `size`. Then the bound 2 · size leaves
+// room for balls, bars, a separate label, and the place of the body on the plate of a printer.
 double coordinateBoundOf(const ExportRequest& request, int slices) {
     return request.contents == ExportContentsKind::oval ? coordinateBound(slices, request.size) : 2 * request.size;
 }
@@ -149,7 +149,8 @@ class Exporter {
         return solids;
     }
 
-    /// Returns the color of solid bodies. Triangles that were cut from a cell have the color of the cell instead.
+    /// Returns the color of solid bodies. In formats with the colors of cells, only triangles that were cut from no
+    /// cell have this color.
     scene::Color colorOfSolids() const {
         const bool isCell = element_ && element_->kind == slicing::ElementKind::cell;
         return isCell ? scene_.cellColors[element_->index] : scene::style().ball;
@@ -162,7 +163,7 @@ class Exporter {
         return slices_.vertexCount(i) == 0;
     }
 
-    /// Returns whether the file has only the body of the outermost level of a field, as files for printers do.
+    /// Returns whether the file, because it is for a printer, has only the body of the outermost level of a field.
     bool hasOneLevel() const { return request_.format->arrangement == Format::BodyArrangement::plate; }
 
     void prepareSurfaces() {
@@ -290,9 +291,9 @@ class Exporter {
                                                                 (isCell ? ", or too little for this size" : "") +
                                                                 "; choose body=skeleton, its balls and bars"}};
     }
-    /// Throws ExportRefused, with `message` and the reason, if the whole polytope is at most a few grid steps large.
-    /// This happens if the polytope is far from the origin, because ExportRequest::size is the diameter of a sphere
-    /// around the origin.
+    /// Throws ExportRefused, with `message` and the reason, if the whole polytope is at most kFewSteps grid steps
+    /// large. This happens if the polytope is small and far from the origin, because ExportRequest::size is the
+    /// diameter of a sphere around the origin.
     void refuseIfTiny(const std::string& message) const {
         constexpr double kFewSteps = 8;
         BoundingBox box;
@@ -357,11 +358,11 @@ class Exporter {
     const ExportBudget& budget_;
     const double scale_;  // millimeters per unit of the object
     const RoundingGrid grid_;
-    const RoundingGrid surfaceGrid_;           // grid for the surfaces of a field: grid_ or a finer grid
+    const RoundingGrid surfaceGrid_;           // for the surfaces of a field: finer than grid_ in files with doubles
     std::optional<slicing::Element> element_;  // for ExportContentsKind::highlight: the element to export; else empty
     SkeletonRadii radii_;
     double cube_ = 0;
-    bool hasSurfaces_ = false;  // whether the surfaces of a field enclose the bodies
+    bool hasSurfaces_ = false;  // whether the bodies are those that the surfaces of a field enclose
     std::optional<FieldSurfaceSource> surfaces_;
     bool lastSurfaceIsEmpty_ = false;  // whether the slice for which surfaceBodies() was called last has no surface
     std::vector<std::string> warnings_;

@@ -24,12 +24,12 @@ struct ExportedFile {
 
 /// Returns a file with the slices of `scene`, or with a drawing of `scene`. The slices must have been cut from `object`
 /// rotated by `orientation`. Some values of ExportRequest::contents require more of `scene`:
-/// - focus: it contains only the focus slice.
-/// - oval: its view shows all slices (see scene::showsAllSlices()).
-/// - highlight: its Look::highlight is the element to export, and its only slice is this element (see
+/// - focus: the scene contains only the focus slice.
+/// - oval: the view of the scene shows all slices (see scene::showsAllSlices()).
+/// - highlight: Look::highlight of the scene is the element to export, and the only slice is this element (see
 ///   slicing::writeElementAsSlice()).
-/// - projection: for a drawing, it shows the projection; for bodies, its only slice is the projection.
-/// - matrix: it shows the matrix.
+/// - projection: for a drawing, the scene shows the projection; for bodies, the only slice is the projection.
+/// - matrix: the scene shows the matrix.
 ///
 /// The slices must have surfaces (SliceSet::surfaces) for formats with Format::readsSurfaces, and for the solid bodies
 /// of a field. This is not required if ExportRequest::exact is true, or for ExportContentsKind::highlight, because the
@@ -40,8 +40,8 @@ struct ExportedFile {
 ///
 /// Returns an ExportRefusal if a limit is exceeded, if there is nothing to export, if the format cannot contain the
 /// requested contents, or if a stop was requested. Throws std::runtime_error if a library that writes the file fails,
-/// if the font of a label cannot be read, if the plate of a label cannot be made, or if the file of a field can no
-/// longer be read.
+/// if the font of a label cannot be read, if the plate of a label cannot be made, or if the file from which a field
+/// reads its samples has become unreadable.
 std::variant<ExportedFile, ExportRefusal> exportScene(const scene::Scene& scene, const slicing::Object& object,
                                                       const geometry::Rotation& orientation,
                                                       const ExportRequest& request, const ExportLimits& limits,

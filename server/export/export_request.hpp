@@ -50,8 +50,8 @@ struct ExportRequest {
     LabelPlacement label = LabelPlacement::none;
     /// The slices for ExportContentsKind::oval. At most one of these two options is given. Without both, the file has
     /// the slices of the session.
-    /// - `chosenW`: there is a slice at each of these values of w, in this order. They are in the coordinates of the
-    ///   object's file (see ObjectInfo::originInFile).
+    /// - `chosenW`: there is a slice at each of these values of w, in this order. The values are in the coordinates of
+    ///   the object's file (see ObjectInfo::originInFile).
     /// - `fittedSlices`: the object's extent along w is divided into this number of equal parts, and there is a slice
     ///   in the middle of each part. If the object is a convex polytope, no slice is empty.
     std::vector<double> chosenW = {};

@@ -22,8 +22,8 @@ glm::dmat4 boxToPicture(const Field& field, const geometry::Rotation& orientatio
     return orientation.matrix() * glm::inverse(field.toFunction);
 }
 
-// Returns the factors of the coordinates in the box: their sum with these factors is the coordinate along the axis of
-// the picture.
+// Returns the factors by which the four coordinates in the box are multiplied. The sum of the products is the
+// coordinate along the axis `axis` of the picture.
 glm::dvec4 coordinateCoefficients(const glm::dmat4& toPicture, int axis) {
     return {toPicture[0][axis], toPicture[1][axis], toPicture[2][axis], toPicture[3][axis]};
 }
@@ -71,7 +71,8 @@ std::string placeInBox(const Field& field, const geometry::Rotation& orientation
     if (!coordinate) return {};
     const std::string& unit = field.units.at(static_cast<std::size_t>(coordinate->axis));
     if (unit.empty() && coordinate->isW()) return {};
-    // Two digits of the distance between neighboring slices; 15 digits are what a double holds.
+    // The text shows two digits of the distance between neighboring slices. It has at most 15 decimals, because a
+    // double holds 15 digits.
     const double step = std::abs(coordinate->scale) * spacing, value = coordinate->coordinateAt(w);
     const double decimals = step > 0 ? std::clamp(1 - std::floor(std::log10(step)), 0.0, 15.0) : 3;
     const double unitOfLastDigit = std::pow(10, -decimals);

@@ -21,9 +21,9 @@ struct PictureAxisUnit {
 using PictureUnits = std::array<PictureAxisUnit, 4>;
 
 /// Returns the units of the axes x, y, z and w of the picture after a rotation of the field by `orientation`. Each
-/// coordinate in the picture is a linear combination of the coordinates in the box. A coordinate in the picture has a
-/// unit if all coordinates in the box with nonzero factors have the same unit. A coordinate in the picture is to scale
-/// if the vector of the factors has the length 1. For example, the axis w of an array is not to scale if
+/// coordinate in the picture is a linear combination of the coordinates in the box. An axis of the picture has a unit
+/// if all coordinates in the box that have nonzero factors have the same known unit. The axis is to scale if it has a
+/// unit, and if the vector of the factors has the length 1. For example, the axis w of an array is not to scale if
 /// fieldFromArray() or ReferenceFrame::pace has scaled w.
 PictureUnits pictureUnits(const Field& field, const geometry::Rotation& orientation);
 
@@ -43,18 +43,19 @@ struct ConstantSliceCoordinate {
 std::optional<ConstantSliceCoordinate> constantSliceCoordinate(const Field& field,
                                                                const geometry::Rotation& orientation);
 
-/// Returns the coordinate in the box of a field that all points of the slice `w` have in common as a text: "130 s" for
-/// a coordinate along the axis w whose unit is known, else "box x = 0.5 m" or "box w = 130". Returns an empty text if
-/// there is no such coordinate, or if it is w itself, without a unit. `spacing` is the distance between slices; the
-/// text has as many decimals as are needed to distinguish neighboring slices.
+/// Returns a text with the coordinate in the box of a field that all points of the slice `w` have in common (see
+/// constantSliceCoordinate()). The text is such as "130 s" for the axis w of the box if its unit is known, else such as
+/// "box x = 0.5 m" or "box w = 130". Returns an empty text if there is no such coordinate, or if the coordinate is w
+/// itself and has no unit. `spacing` is the distance between slices; the text has enough decimals to distinguish
+/// neighboring slices.
 std::string placeInBox(const Field& field, const geometry::Rotation& orientation, double w, double spacing);
 
 /// Returns the unit of lengths in a slice w = const of the picture: the common unit of the axes x, y and z if all three
 /// are to scale. Returns an empty string if their units differ, or if an axis is not to scale.
 std::string lengthUnit(const PictureUnits& units);
 
-/// Returns the label of an axis, 0 … 3 for x … w. The label of axis 0 is "x, m" if the unit is m, and "x" if the unit
-/// is unknown.
+/// Returns the label of an axis, 0 … 3 for x … w. For example, the label of axis 0 is "x, m" if the unit is m, and "x"
+/// if the unit is unknown.
 std::string axisLabel(int axis, const PictureAxisUnit& unit);
 
 }  // namespace oval4d::fields

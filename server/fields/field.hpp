@@ -26,8 +26,8 @@ namespace oval4d::fields {
 
 class ArrayFunction;
 
-/// A second function on the box of a field, such as the pressure if the field is a vorticity. Its values can color the
-/// surfaces of the field.
+/// A second function on the box of a field, whose values can color the surfaces of the field: for example, the pressure
+/// in a field of vorticity.
 struct SecondFunction {
     std::shared_ptr<const ScalarFunction> function;
     std::string formula = {};                         ///< the text of the formula; empty if the function is an array
@@ -64,8 +64,8 @@ struct Field : geometry::ObjectInfo {
     glm::dmat4 toFunction{1};
     std::shared_ptr<const polytopes::Polytope> domain;  ///< the box as a polytope, in the object's coordinates; a
                                                         ///< parallelepiped if isTransformed
-    bool isTransformed = false;                         ///< whether transformedTo() made this field, which shares its
-                                                        ///< functions with the original
+    bool isTransformed = false;                         ///< whether transformedTo() made this field from another field,
+                                                        ///< with the same functions
     double initialLevel = 0;                            ///< the level (value) that is shown at first
     BodySide initialInside = BodySide::below;           ///< which side of the levels is inside the body at first
     std::string formula;                                ///< the text of the formula; empty if there is none
@@ -74,7 +74,7 @@ struct Field : geometry::ObjectInfo {
                                                  ///< sanitizeQuantityText())
     Quantity quantity;                ///< what the values measure; only for arrays (see sanitizeQuantityText())
     bool isPart = false;              ///< whether the file of the array has more samples (see FieldArray)
-    MultiscaleImageLevel imageLevel;  ///< the level of a multiscale image that the array is (see FieldArray)
+    MultiscaleImageLevel imageLevel;  ///< which level of a multiscale image the array is (see FieldArray)
     std::shared_ptr<const SecondFunction> second;  ///< the second function; null if there is none
     /// The range, without outliers, of the values of coloringFunction() on the box.
     std::shared_ptr<const TypicalRangeOnBox> coloringRange;
@@ -83,8 +83,8 @@ struct Field : geometry::ObjectInfo {
     std::shared_ptr<const FieldFileSource> source;  ///< the file in the data folder if the samples are too large for
                                                     ///< memory or a part of a larger array; else null
 
-    /// Returns whether samples are lost: whether the array or the second array is in a mapped file that could not be
-    /// read in part, or that has changed (see MappedFile::isLost()).
+    /// Returns whether samples are lost: whether the array or the second array is in a mapped file of which a part
+    /// could not be read, or which has changed (see MappedFile::isLost()).
     bool isLost() const;
     /// Throws std::runtime_error if isLost(), because values that were read may be wrong.
     void requireReadable() const;
@@ -96,9 +96,9 @@ struct Field : geometry::ObjectInfo {
     }
 };
 
-/// Makes a field from a function and its domain. For each axis, `scale` is the length in the 4-D object of one unit of
-/// the function's coordinate; it must be greater than 0. Throws std::invalid_argument with the reason if the box is not
-/// within ±1e30, or if its extent along an axis is 0 or too small for 32-bit floats.
+/// Makes a field from a function and its domain. For each axis, one unit of the function's coordinate has the length
+/// `scale` in the 4-D object; `scale` must be greater than 0. Throws std::invalid_argument with the reason if the box
+/// is not within ±1e30, or if its extent along an axis is 0 or too small for 32-bit floats.
 Field makeField(std::string name, std::shared_ptr<const ScalarFunction> function, const Box& box,
                 const glm::dvec4& scale = glm::dvec4(1));
 
@@ -106,7 +106,7 @@ Field makeField(std::string name, std::shared_ptr<const ScalarFunction> function
 void setSecondFunction(Field& field, SecondFunction second);
 
 /// Returns a copy of a field, with a new serial number, to which `change` has been applied. The copy has the same
-/// functions as the original, and keeps the original alive. So the use count of the original shows its owner whether
+/// functions as the original, and keeps the original alive. So an owner of the original sees from its use count whether
 /// the functions are in use.
 std::shared_ptr<const Field> changedCopy(std::shared_ptr<const Field> original,
                                          const std::function<void(Field&)>& change);

@@ -48,8 +48,8 @@ std::optional<Error> validationErrorOf(const FieldArray& array) {
 
 }  // namespace
 
-// Members of Field that the definition leaves out: `shared`, which says where the field is kept; and function, center,
-// toFunction, domain, isTransformed, initialLevel, initialInside and coloringRange, which are computed.
+// Members of Field that the definition leaves out: `shared`, which says whether sessions share the field; and function,
+// center, toFunction, domain, isTransformed, initialLevel, initialInside and coloringRange, which are computed.
 static_assert(serialization::HasOwnMembers<Field, geometry::ObjectInfo, 18>, "the definition considers each member");
 FieldDefinition definitionOf(const Field& field) {
     if (!field.source) return definitionByFunctions(field);

@@ -7,8 +7,8 @@
 
 namespace oval4d::fields {
 
-/// The side of a level on which the body lies that the level bounds: where the function is below the level, or above
-/// it. Stored sessions contain the numbers of the enumerators, so these numbers must not change.
+/// The side of a level on which the body lies: where the function is below the level, or above it. Stored sessions
+/// contain the numbers of the enumerators, so these numbers must not change.
 enum class BodySide : std::uint8_t { below = 0, above = 1 };
 inline constexpr auto kInsides =
     text::completeTable<text::NamedValue<BodySide>>({{"below", BodySide::below}, {"above", BodySide::above}});

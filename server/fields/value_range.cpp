@@ -49,7 +49,7 @@ FullAndTypicalRange fullAndTypicalRange(std::span<const float> values) { return 
 
 const ValueRange& TypicalRangeOnBox::typicalRange() const {
     std::call_once(measured_, [&] {
-        // A slower function is evaluated in fewer batches.
+        // There are from 1 to kMaxBatches batches after the first; the slower the function, the fewer.
         constexpr double kTime = 1e6;  // nanoseconds for all evaluations together
         constexpr std::size_t kMaxBatches = 8, kCorners = 81;
         const double batches = kTime / (static_cast<double>(kQuasirandomPoints) * function_->cost().value);
@@ -74,7 +74,8 @@ const ValueRange& TypicalRangeOnBox::typicalRange() const {
             function.evaluate({points[0], points[1], points[2], points[3]},
                               std::span(values).subspan(batch * kQuasirandomPoints, kQuasirandomPoints));
         }
-        constexpr double kMargin = 0.5;  // large, so that a color scale includes the extreme values if possible
+        // Large, so that the range, which becomes a color scale, rarely excludes an extreme value.
+        constexpr double kMargin = 0.5;
         range_ = fullAndTypicalRangeWith(values, kMargin).typical;
     });
     return range_;

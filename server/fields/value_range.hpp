@@ -41,8 +41,8 @@ FullAndTypicalRange fullAndTypicalRange(std::span<const float> values);
 
 /// The range of the values of a function on a box, without outliers. The range is like FullAndTypicalRange::typical,
 /// but extended at both ends by half of its length instead of a tenth. The first call of typicalRange() computes the
-/// range from a few thousand points of the box, including the corners and the midpoints of edges, faces and cells. The
-/// range depends only on the function and the box. Thread-safe.
+/// range from 2,048 to 9,216 points of the box, among them its center, its corners, and the midpoints of its edges,
+/// faces and cells. The range depends only on the function and the box. Thread-safe.
 class TypicalRangeOnBox {
   public:
     TypicalRangeOnBox(std::shared_ptr<const ScalarFunction> function, const Box& box)

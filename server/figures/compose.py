@@ -1,4 +1,4 @@
-"""Puts pictures side by side into one, and letters on them: compose.py OUT.png COLUMNS PANEL.png ..."""
+"""Joins pictures (panels) into one picture with rows of COLUMNS panels: compose.py OUT.png COLUMNS PANEL.png ..."""
 
 import math
 import sys
@@ -12,7 +12,10 @@ FONT = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf"
 
 
 def compose_panels(panels, columns):
-    """All panels have the size of the first; they are lettered (a), (b), ... in their upper right corners."""
+    """Returns one picture of all panels, row by row, with `columns` panels in each row.
+
+    All panels must have the size of the first. Each panel gets a letter, (a), (b), ..., in its upper right corner.
+    """
     width, height = panels[0].size
     rows = math.ceil(len(panels) / columns)
     size = (columns * (width + GAP) - GAP, rows * (height + GAP) - GAP)

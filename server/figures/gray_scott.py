@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Writes the run of protocol/python/gray_scott.py as an array: gray_scott.py FILE.npy"""
+"""Writes all moments of the simulation in protocol/python/gray_scott.py as one array: gray_scott.py FILE.npy"""
 
 import sys
 from pathlib import Path

@@ -20,10 +20,10 @@ using serialization::ByteWriter;
 
 namespace {
 
-// Limits on the errors and warnings that the server accepts from a reader process. A malicious file may control the
-// process. Usual errors and warnings are far below these limits.
-constexpr std::size_t kMaxText = 2000;  // the maximum size in bytes of an error or warning
-constexpr std::size_t kMaxWarnings = 100;
+// Limits on the errors and warnings that the server accepts from a reader process, because a malicious file may control
+// the process. Usual errors and warnings are far below these limits.
+constexpr std::size_t kMaxText = 2000;     // the server keeps about this many bytes of an error message or a warning
+constexpr std::size_t kMaxWarnings = 100;  // more warnings make the whole outcome invalid
 
 enum class ReadOutcomeKind : std::uint8_t {
     object,
@@ -54,8 +54,8 @@ std::string readPrintableText(ByteReader& archive) {
     return text::printable(text, kMaxText);
 }
 
-/// Returns the size in bytes of the samples that the encoded outcome contains. The samples of arrays with more than
-/// `maxInMemory` samples do not count: they are in mapped files, to which the outcome refers.
+/// Returns the size in bytes of the samples of `object` that the encoded outcome contains. The samples of an array with
+/// more than `maxInMemory` samples do not count: they are in a mapped file, to which the outcome refers.
 std::size_t sampleBytes(const slicing::Object& object, std::size_t maxInMemory) {
     const fields::Field* const field = slicing::fieldIn(object);
     std::size_t bytes = 0;
@@ -66,8 +66,8 @@ std::size_t sampleBytes(const slicing::Object& object, std::size_t maxInMemory) 
     return bytes;
 }
 
-// Encodes or decodes most members of a request. encodeReadRequest() and decodeReadRequest() share this code, so that
-// they agree on these members.
+// Encodes the members of a request that need no conversion or, if `archive` is a ByteReader, decodes them.
+// encodeReadRequest() and decodeReadRequest() share this code, so that they agree on these members.
 template <typename Archive, typename Load, typename Limits>
 void serializeReadRequest(Archive& archive, Load& load, Limits& limits) {
     archive(load.format), archive(load.name), archive(load.axes), archive(load.variable), archive(load.data);
@@ -157,8 +157,9 @@ Result<session::ObjectWithWarnings> decodeOutcome(std::string_view bytes, const 
 }
 
 std::size_t maxOutcomeBytes(const session::LoadObject& load, const session::Limits& limits) {
-    // In the text of a file, a number and the blank after it take at least two bytes. In the outcome, an index takes
-    // four bytes, and a cell of a convex hull with its 2-faces takes less than kPerCell bytes.
+    // Generous limits. A number in a text file takes at least two bytes, with the blank after it. In the outcome, this
+    // number takes four bytes as an index, and eight as a coordinate. A cell of a convex hull, with its 2-faces, takes
+    // less than kPerCell bytes in the outcome.
     constexpr std::size_t kPerTextByte = 16, kPerCell = 512, kBase = 1U << 20U;
     if (load.isArrayInFiles() || session::isArrayFormat(load.format)) return kBase + limits.maxFieldBytes;
     return kBase + kPerTextByte * load.data.size() + kPerCell * limits.maxHullCells;

@@ -21,8 +21,8 @@ using process::WaitLimit;
 
 namespace {
 
-// The nice value of reader processes. Drawing has priority: if a reader process and a rasterizer process (draws
-// pictures) share a core, the reader process gets about a quarter of the CPU time.
+// The nice value of reader processes. Drawing has priority: if a reader process shares a core with a process that draws
+// pictures, the reader process gets about a quarter of the CPU time.
 constexpr int kNiceness = 5;
 
 }  // namespace
@@ -56,9 +56,10 @@ void FileReaderPool::retireProcess(ChildProcessPtr used) {
     wake_.notify_all();
 }
 
-/// Kills processes that have read a file, and starts a new process in place of each. If no file is read for
-/// FileReaderOptions::idle, kills the waiting processes. Runs on a thread of its own, so that clients do not wait for
-/// new processes.
+/// Replaces each process that has read a file by a new one, until `stop` is requested. Keeps at most
+/// FileReaderOptions::maxWaiting processes, and kills the others. If no file is read for the time
+/// FileReaderOptions::idle, kills all waiting processes. Runs on a thread of its own, so that clients do not wait while
+/// processes start.
 void FileReaderPool::replaceUsedProcesses(const std::stop_token& stop) {
     const auto idle = std::chrono::duration_cast<Clock::duration>(options_.idle);
     std::unique_lock lock(mutex_);
@@ -72,7 +73,7 @@ void FileReaderPool::replaceUsedProcesses(const std::stop_token& stop) {
         std::vector<ChildProcessPtr> used = std::exchange(used_, {});
         std::vector<ChildProcessPtr> surplus;
         if (used.empty() && Clock::now() >= lastUsed_ + idle) surplus = std::exchange(waiting_, {});
-        // There may be more than maxWaiting processes, because acquire() creates a process if none is waiting.
+        // Together, there may be more than maxWaiting processes: if none is waiting, acquire() creates a new one.
         while (!used.empty() && waiting_.size() + used.size() > options_.maxWaiting) {
             surplus.push_back(std::move(used.back()));
             used.pop_back();
@@ -125,7 +126,7 @@ class FileReadConversation {
     }
 
     // Maps the loaded file and the new files that the process was given, because the samples of large arrays stay in
-    // these files. Maps no files if there is no allocate_.
+    // these files. Returns an empty list if there is no allocate_, because then all samples are in the message.
     Result<slicing::MappedFiles> mapFiles() const {
         slicing::MappedFiles mapped;
         if (!allocate_) return mapped;
@@ -139,8 +140,8 @@ class FileReadConversation {
         return mapped;
     }
 
-    // The body of the last message that run() received. `outcome` is the body of the `outcome` message if run() has
-    // returned TransferResult::complete and `refused` is empty.
+    // The body of the last message that run() received from the process. If run() has returned
+    // TransferResult::complete and `refused` is empty, this was the message MessageType::outcome.
     std::string outcome;
     std::optional<Error> refused;  // why a new file or a file of the folder could not be given to the process; empty if
                                    // no request failed
@@ -165,7 +166,8 @@ class FileReadConversation {
     }
 
     int createRequestedFile(WaitLimit& limit) {
-        constexpr std::size_t kMaxFiles = 4;  // for each of two arrays, a decompressed and a converted file
+        // The new files that one request needs at most: for each of two arrays, a decompressed and a converted file.
+        constexpr std::size_t kMaxFiles = 4;
         std::size_t bytes = 0;
         if (!allocate_ || outcome.size() != sizeof bytes || made_.size() == kMaxFiles)
             throw std::runtime_error("a reader process asked for a file that it does not need");

@@ -23,21 +23,22 @@ namespace oval4d::file_reading {
 /// The options of FileReaderPool.
 struct FileReaderOptions {
     std::chrono::duration<double> timeout;  ///< the time in seconds that reading one file may take
-    std::chrono::duration<double> idle;     ///< a waiting process ends if no file is read for this time, in seconds
+    std::chrono::duration<double> idle;     ///< the time in seconds without a read file after which waiting processes
+                                            ///< are killed
     std::function<void(const process::ProcessLoss&)> onLoss;  ///< called on any thread when a process dies unexpectedly
-    std::vector<std::string> environment;                     ///< the environment variables of a process
-                                                              ///< (process::ChildOptions)
+    std::vector<std::string> environment;                     ///< the environment variables of the processes, as in
+                                                              ///< process::ChildOptions::environment
     std::size_t maxWaiting;                                   ///< the maximum number of processes that wait for a file
 };
 
-/// A function that makes a new file of this size in bytes, with its space reserved on the disk. A reader process may
-/// write samples to the file. Called on the thread that calls FileReaderPool::read(). Errors: `too_large` and
-/// `too_many` if there is no room for the file.
+/// A function that makes a new file of the size `bytes`, and reserves its space on the disk. A reader process writes
+/// samples to the file. Called on the thread that calls FileReaderPool::read(). Errors: `too_large` and `too_many` if
+/// there is no room for the file.
 using FileAllocator = std::function<Result<std::shared_ptr<const fields::FileHandle>>(std::size_t bytes)>;
 
 /// A pool of processes that read files. A process reads a single file and ends, so that a malicious file cannot affect
-/// the reading of the next file. A new process then replaces it, and waits for the next file. A waiting process ends if
-/// no file comes within FileReaderOptions::idle. Thread-safe.
+/// the reading of the next file. A new process then replaces this process, and waits for the next file. If no file is
+/// read for the time FileReaderOptions::idle, the waiting processes are killed. Thread-safe.
 class FileReaderPool {
   public:
     explicit FileReaderPool(FileReaderOptions options);
@@ -45,11 +46,12 @@ class FileReaderPool {
     FileReaderPool(const FileReaderPool&) = delete;
     FileReaderPool& operator=(const FileReaderPool&) = delete;
 
-    /// Reads a file as session::readObject() does, but in another process. Returns when the process has read the file.
+    /// Reads the file, series or folder of `load` as session::readObject() does, but in another process. Returns when
+    /// the process has read it.
     ///
-    /// With `allocate`, arrays of more than Limits::maxFieldBytes are allowed. Their samples stay in the file, which is
-    /// mapped, or are written to a new file that `allocate` makes. The timeout (FileReaderOptions::timeout) is extended
-    /// by one second for each kBytesPerSecond bytes of a new file.
+    /// If `allocate` is given, arrays of more than Limits::maxFieldBytes are allowed. Their samples stay in the file,
+    /// which is mapped, or are written to a new file that `allocate` makes. For each kBytesPerSecond bytes of a new
+    /// file, the process may take one second more than FileReaderOptions::timeout.
     ///
     /// Errors: those of session::readObject() and of `allocate`; `too_large` if the process needs more memory or time
     /// than it may use. Throws process::Canceled if `stop` is requested. Throws std::runtime_error if the process dies

@@ -102,9 +102,9 @@ class RequestedObjectReader {
         return file;
     }
 
-    // Requests a part of the file at `path` in the requested folder from the server. Returns an empty optional if there
-    // is no such file. Keeps the last opened file mapped, so that a shard (a file with many chunks) is opened only
-    // once.
+    // Returns a part of a file in the requested folder, or an empty optional if there is no such file. `path` is
+    // relative to the folder. The server sends the bytes, or a descriptor of the file. The last file that came as a
+    // descriptor stays mapped, so that a shard (a file with many chunks) is requested only once.
     Result<std::optional<fields::FileContents>> findFile(const std::string& path, const fields::FilePart& part) {
         if (lastFile_ && lastPath_ == path) return std::optional(lastFile_->partialContents(part));
         std::string body;
@@ -127,12 +127,12 @@ class RequestedObjectReader {
     const FileReadRequest request_;
     std::vector<fields::FileContents> sources_;
     slicing::MappedFiles mapped_;  // the mapped files, in the order in which FileReaderPool::read() maps the same files
-    std::string lastPath_;         // the path of the file in the folder that was opened last
-    std::optional<fields::FileContents> lastFile_;
+    std::string lastPath_;         // the path of lastFile_ in the folder
+    std::optional<fields::FileContents> lastFile_;  // the last file of the folder that findFile() has mapped
 };
 
-// Reads the file that `body`, the body of a `file` message, requests. Replaces `body` by the body of the `outcome`
-// message. `descriptor` is the open file that came with the message, or kNoFile.
+// Executes the request in `body`, the body of a message MessageType::file. Replaces `body` by the body of the answer, a
+// message MessageType::outcome. `descriptor` is the open file that came with the request, or kNoFile.
 void replaceByOutcome(const Channel& channel, std::string& body, int descriptor) {
     try {
         FileReadRequest request;
@@ -144,8 +144,8 @@ void replaceByOutcome(const Channel& channel, std::string& body, int descriptor)
     } catch (const std::bad_alloc&) {
     } catch (const std::length_error&) {
     }
-    encodeOutcome(kNoMemory, body);  // there is memory for this, because unwinding the stack has freed the memory of
-                                     // the file
+    encodeOutcome(kNoMemory, body);  // there is memory for this: the exception has destroyed the object that was being
+                                     // read
 }
 
 }  // namespace

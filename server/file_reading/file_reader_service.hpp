@@ -8,8 +8,9 @@ namespace oval4d::file_reading {
 /// The subcommand that makes this program run as a file reader process.
 inline constexpr const char* kFileReaderCommand = "read";
 
-/// Confines this process to a sandbox, receives a request for one file over `socket`, sends the object in the file or
-/// an error, and returns.
+/// Confines this process to a sandbox, receives a FileReadRequest, sends the object that was read, or an error, and
+/// returns. `socket` is the descriptor of the socket to the server. If the sandbox cannot be set up, sends
+/// MessageType::failed instead and returns.
 void runFileReader(int socket, const process::Confinement& confinement);
 
 }  // namespace oval4d::file_reading

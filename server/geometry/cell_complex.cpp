@@ -12,7 +12,8 @@ namespace oval4d::geometry {
 
 namespace {
 
-// Returns whether a vertex loop is a convex polygon, that is, whether its exterior angles add up to 2π.
+// Returns whether a vertex loop is a flat, convex polygon. It is one if its exterior angles, taken as positive, add up
+// to 2π; the angles of every other loop add up to more (Fenchel's theorem).
 bool isConvexLoop(const CellComplex& complex, std::span<const std::uint32_t> loop) {
     if (loop.size() == 3) return true;
     const std::size_t n = loop.size();
@@ -26,7 +27,7 @@ bool isConvexLoop(const CellComplex& complex, std::span<const std::uint32_t> loo
         const double inner = glm::dot(a, b);
         turning += std::acos(std::clamp(inner / (glm::length(a) * glm::length(b)), -1.0, 1.0));
     }
-    // The absolute values of the exterior angles add up to 2π if the loop is convex, else to more.
+    // 1e-6 allows for rounding errors.
     return turning < 2 * std::numbers::pi + 1e-6;
 }
 

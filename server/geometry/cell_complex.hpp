@@ -22,12 +22,12 @@ struct CellComplex : ObjectInfo {
     std::vector<std::array<std::uint32_t, 2>> edges;      ///< pairs of vertices, the smaller index first
     JaggedArray faces;                                    ///< the vertex loop of each 2-face
     JaggedArray faceEdges;                                ///< the edges of each 2-face: entry i of a row is the edge
-                                                          ///< from corner i to corner i + 1 of the vertex loop
+                                                          ///< from corner i to the next corner of the vertex loop
     JaggedArray cells;                                    ///< the 2-faces of each cell; empty if there are no cells
     std::vector<std::int8_t> cellSigns;                   ///< the sign of each entry of cells.items: +1 if the vertex
                                                           ///< loop of the 2-face is counterclockwise seen from outside
-                                                          ///< the cell, else −1; a 2-face has opposite signs in its two
-                                                          ///< cells
+                                                          ///< the cell, else −1; each 2-face has the sign +1 in one of
+                                                          ///< its two cells, and −1 in the other
     std::vector<std::array<std::uint32_t, 2>> faceCells;  ///< the two cells of each 2-face: first the cell in which the
                                                           ///< sign of the 2-face is −1; empty if there are no cells
     std::vector<std::uint32_t> typeOfCell;                ///< the type of each cell, an index into `cellTypes`
@@ -54,10 +54,10 @@ void findEdges(CellComplex& complex);
 /// Returns whether every 2-face is a convex polygon. A 2-face that is not flat is not convex.
 bool hasConvexFaces(const CellComplex& complex);
 
-/// Returns the memory that the rows of `array` occupy, in bytes, without sizeof(JaggedArray).
+/// Returns the memory that the rows of `array` occupy on the heap, in bytes.
 std::size_t memoryOfRows(const JaggedArray& array);
 
-/// Returns the memory that the elements of `complex` occupy, in bytes, without sizeof(CellComplex) and its strings.
+/// Returns the memory that the vertices, edges, 2-faces and cells of `complex` occupy on the heap, in bytes.
 std::size_t memoryOfElements(const CellComplex& complex);
 
 }  // namespace oval4d::geometry

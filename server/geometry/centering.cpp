@@ -11,12 +11,14 @@ namespace oval4d::geometry {
 namespace {
 
 // In this file, the extent of an object is the largest distance of one of its points from its center.
-constexpr double kFar = 3;  // an object is far from the origin if its center is more than this many extents away
-// The coordinates of the center are rounded to this many bits below the leading bit of the extent.
+// An object is far from the origin if its center is more than this many extents away from the origin.
+constexpr double kFar = 3;
+// The coordinates of the center are rounded to multiples of 2^−kBitsOfCenter times the leading bit of the extent.
 constexpr int kBitsOfCenter = 36;
 
-// Returns the mean of points. Averages the differences of the points from the first point. If the points are close
-// together and far from the origin, these differences are exact; a sum of the coordinates would not be.
+// Returns the mean of points: the first point plus the mean difference of the points from the first point. If the
+// points are close together and far from the origin, these differences are exact; a sum of the coordinates would not
+// be.
 glm::dvec4 meanOf(std::span<const glm::dvec4> points) {
     glm::dvec4 sum(0);
     for (const glm::dvec4& p : points) sum += p - points.front();

@@ -18,7 +18,7 @@ struct Hyperplanes {
     double spacing = 0.1;  ///< the distance of neighboring hyperplanes, greater than 0, in the units of the object
     double offset = 0;     ///< w of the hyperplane n = 0, in the units of the object
     /// The w coordinates of the `count` hyperplanes, in any order and in the units of the object; empty if the
-    /// hyperplanes are evenly spaced. If `listed` is not empty, `offset` is not used, and `spacing` is only the
+    /// hyperplanes are evenly spaced. If `listed` is not empty, `offset` is not used, and `spacing` is used only as the
     /// thickness of the slices of a point cloud.
     std::vector<double> listed = {};
 

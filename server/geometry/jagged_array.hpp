@@ -16,7 +16,7 @@ struct JaggedArray {
 
     /// Returns the number of rows.
     std::size_t size() const { return begin.size() - 1; }
-    /// Returns row i. The span is valid until the array changes.
+    /// Returns row i (0 … size() − 1). The span is valid until the array changes.
     std::span<const std::uint32_t> operator[](std::size_t i) const {
         return {items.data() + begin[i], begin[i + 1] - begin[i]};
     }

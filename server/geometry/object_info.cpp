@@ -7,8 +7,8 @@ namespace oval4d::geometry {
 
 namespace {
 
-// Returns a random integer of 52 bits. A process that counts up from there stays below 2^53, so JSON readers with
-// 64-bit floats read its serial numbers exactly.
+// Returns a random integer below 2^52. A process counts its serial numbers up from this integer, and stays below 2^53.
+// So JSON readers that store numbers as 64-bit floats read the serial numbers exactly.
 std::uint64_t randomFirstSerial() {
     std::random_device random;
     const std::uint64_t high = random(), low = random();

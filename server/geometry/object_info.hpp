@@ -21,18 +21,19 @@ struct CellType {
 
 /// The properties that 4-D objects of all kinds (see slicing::Object) have.
 struct ObjectInfo {
-    /// The range of the coordinates of vertices, points and origins in stored objects.
+    /// The allowed range of the coordinates of vertices, points and `originInFile` in stored objects.
     static constexpr NumberRange kStoredCoordinates = NumberRange::ofAbsoluteValuesUpTo(1e15);
 
     std::string name;
-    std::uint64_t serial = 0;    ///< unique among the objects of all processes; the key of an object in caches
-    double circumradius = 0;     ///< the largest distance of a vertex or point from the origin; of a point cloud whose
-                                 ///< points are all at the origin, see makePointCloud()
+    std::uint64_t serial = 0;    ///< a number that no other object of any process has (see nextSerial()); the key of
+                                 ///< the object in caches
+    double circumradius = 0;     ///< the largest distance of a vertex or point from the origin; makePointCloud() says
+                                 ///< what the circumradius is if all points of a cloud are at the origin
     glm::dvec4 originInFile{0};  ///< the point of the loaded file that became the origin of the object, in the
                                  ///< coordinates of the file; transformedTo() maps this point like a vertex. 0 unless
                                  ///< loading moved the object (see Centering)
-    bool convex = true;          ///< false only for a polytope that is not the boundary of a convex body; faces of
-                                 ///< a slice of such a polytope may cross each other
+    bool convex = true;          ///< false only for a polytope that is not the boundary of a convex body; in a slice of
+                                 ///< such a polytope, faces may cross each other
     bool rebuildableFromName = false;  ///< whether the name alone is enough to build the object again
     std::vector<CellType> cellTypes;   ///< the types of the cells; empty for an object without cells
 };

@@ -12,8 +12,8 @@ namespace oval4d::geometry {
 
 namespace {
 
-// Returns the circumradius of points whose largest distance from the origin is `distance`. If `distance` is 0, returns
-// the largest radius of a ball or, if no radius is greater than 0, returns 1.
+// Returns ObjectInfo::circumradius of a point cloud: `distance`, the largest distance of a point from the origin. If
+// `distance` is 0, returns the largest of `radii`, or 1 if no radius is greater than 0.
 double circumradiusOf(double distance, const std::vector<double>& radii) {
     if (distance > 0) return distance;
     const double largest = radii.empty() ? 0 : std::ranges::max(radii);

@@ -17,8 +17,8 @@ namespace oval4d::geometry {
 /// not change afterward.
 struct PointCloud : ObjectInfo {
     std::vector<glm::dvec4> points;
-    /// The radius of each point's ball, in the units of the points. 0 means that the ball gets the default radius:
-    /// see slicing::relativeBallRadius().
+    /// The radius of each point's ball, in the units of the points. If it is 0, the ball gets the default radius of
+    /// slicing::relativeBallRadius().
     std::vector<double> radii;
 };
 static_assert(serialization::HasOwnMembers<PointCloud, ObjectInfo, 2>, "visitStoredMembers() considers each member");
@@ -34,11 +34,11 @@ void visitStoredMembers(serialization::ReadOrWritten<PointCloud> auto& cloud, au
 /// largest radius or, if all radii are 0, it is 1.
 PointCloud makePointCloud(std::string name, std::vector<glm::dvec4> points, std::vector<double> radii);
 
-/// Returns the memory that the cloud occupies, in bytes, without its name.
+/// Returns the memory that the cloud occupies, in bytes. The text of its name does not count.
 std::size_t memoryOf(const PointCloud& cloud);
 
-/// Returns the cloud in the coordinates of `frame`, with the serial number `serial`. The radii of the balls do not
-/// change.
+/// Returns the cloud in the coordinates of the frame of reference `frame`, with the serial number `serial`. The radii
+/// of the balls do not change.
 PointCloud transformedTo(const PointCloud& cloud, const ReferenceFrame& frame, std::uint64_t serial);
 
 }  // namespace oval4d::geometry

@@ -37,10 +37,10 @@ class EqualPointFinder {
     }
 
   private:
-    // Returns the hash of a cell. If `corner` is 0xff, this is the cell that contains p. Otherwise, it is the cell that
-    // contains p after p is moved by grid / 4 along every axis: in the positive direction of axis i if bit i of
-    // `corner` is set, else in the negative direction. The cells of the corners 0 … 15 include every cell that may
-    // contain a point equal to p.
+    // Returns the hash of a cell: if `corner` is 0xff, of the cell that contains p. Otherwise, p is first moved by
+    // grid / 4 along every axis i, in the positive direction if bit i of `corner` is set, else in the negative
+    // direction; the cell is the one that contains the moved point. The cells for the values 0 … 15 of `corner` include
+    // every cell that may contain a point equal to p.
     std::uint64_t cellHash(const glm::dvec4& p, unsigned corner) const {
         std::uint64_t hash = 0;
         for (int i = 0; i < 4; ++i) {
@@ -53,7 +53,7 @@ class EqualPointFinder {
     }
 
     double grid_;
-    std::unordered_map<std::uint64_t, std::uint32_t> cells_;  // from the hash of a cell to the index of its first point
+    std::unordered_map<std::uint64_t, std::uint32_t> cells_;  // the hash of each cell, and the index of its first point
 };
 
 }  // namespace oval4d::geometry

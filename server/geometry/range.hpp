@@ -14,7 +14,7 @@ struct NumberRange {
 
     /// Returns the numbers whose absolute value is at most `most`.
     static constexpr NumberRange ofAbsoluteValuesUpTo(double most) { return {-most, most}; }
-    /// Returns the positive numbers that are at most `most`.
+    /// Returns the positive normal numbers (the positive numbers except the subnormal ones) that are at most `most`.
     static constexpr NumberRange positiveUpTo(double most) { return {std::numeric_limits<double>::min(), most}; }
     /// Returns the finite numbers.
     static constexpr NumberRange ofFiniteNumbers() { return ofAbsoluteValuesUpTo(std::numeric_limits<double>::max()); }

@@ -18,8 +18,8 @@ namespace oval4d::geometry {
 glm::dmat4 galileanTransformation(const glm::dvec3& velocity);
 
 /// Returns the Lorentz boost to the rest frame of an observer with the velocity v = `velocity` (Jackson, Classical
-/// Electrodynamics, §11.3). The speed of light is 1, and |v| must be less than 1. The boost preserves w² − x² − y² −
-/// z². The determinant of the boost is 1, and the inverse is lorentzBoost(−v).
+/// Electrodynamics, §11.3). The speed of light is 1, and |v| must be less than 1. The boost preserves the quantity
+/// w² − x² − y² − z². The determinant of the boost is 1, and its inverse is lorentzBoost(−v).
 glm::dmat4 lorentzBoost(const glm::dvec3& velocity);
 
 /// A frame of reference for objects whose axis w is time. It applies three maps in this order: a Galilean
@@ -28,8 +28,8 @@ glm::dmat4 lorentzBoost(const glm::dvec3& velocity);
 /// point to itself.
 struct ReferenceFrame {
     static constexpr NumberRange kPaceRange{1e-3, 1e3};
-    static constexpr NumberRange kFollowRange{-1000, 1000};  ///< the range of each component of `follow`
-    static constexpr double kMaxBoost = 0.999;               ///< the greatest length of `boost`
+    static constexpr NumberRange kFollowRange{-1000, 1000};  ///< the allowed range of each component of `follow`
+    static constexpr double kMaxBoost = 0.999;               ///< the greatest allowed length of `boost`
 
     double pace = 1;
     glm::dvec3 follow{0};  ///< the velocity of objects that this frame shows at rest, in units of x, y and z per unit

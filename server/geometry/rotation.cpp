@@ -15,8 +15,9 @@ glm::dquat asQuaternion(const glm::dvec4& v) { return {v.w, v.x, v.y, v.z}; }
 glm::dvec4 asVector(const glm::dquat& q) { return {q.x, q.y, q.z, q.w}; }
 
 // A pair of perpendicular planes: one without the w axis, and one with it. kPairs has one pair for each of the
-// imaginary units i, j and k, in this order; Rotation(RotationAngles) shows which. The `sign` of the pair xz, yw is −1:
-// a rotation in xz turns x toward z, but multiplication by j turns z (k) toward x (i), by the cycle i → j → k → i.
+// imaginary units i, j and k, which are the directions of the axes x, y and z. The plane with w contains this axis; the
+// spatial plane contains the other two. The `sign` of the pair xz, yw is −1: a rotation in xz turns x toward z, but
+// multiplication by exp(jθ) from the left turns z (k) toward x (i), by the cycle i → j → k → i.
 struct PlanePair {
     Plane spatial, withW;
     double sign;
@@ -44,7 +45,7 @@ glm::dvec3 logarithm(const glm::dquat& q) {
 glm::dquat powerOf(const glm::dquat& q, double fraction) {
     const glm::dvec3 imaginary(q.x, q.y, q.z);
     const double sine = glm::length(imaginary);
-    if (sine == 0) return q;  // q is 1, or −1 for the rotation v ↦ −v, of which power() returns v ↦ −v itself
+    if (sine == 0) return q;  // q is 1 or −1; q = −1 occurs for v ↦ −v, of which power() returns v ↦ −v itself
     const double angle = std::atan2(sine, q.w) * fraction;
     return {std::cos(angle), imaginary * (std::sin(angle) / sine)};
 }
@@ -98,8 +99,8 @@ Rotation::Rotation(const glm::dquat& left, const glm::dquat& right)
 //
 // A rotation by A in the plane of the other two units (from i toward j, from j toward k, or from k toward i) and by B
 // from u toward w is the product of both multiplications, with θ = (A − B) / 2 on the left and θ = −(A + B) / 2 on the
-// right. Multiplications from the left commute with those from the right. Therefore the rotation of the whole turn is v
-// ↦ l·v·r. The logarithm of l is the sum of u θ over the three units u, with the θ on the left; the logarithm of r is
+// right. Multiplications from the left commute with those from the right. Therefore the rotation of the whole turn is
+// v ↦ l·v·r. The logarithm of l is the sum of u θ over the three units u, with the θ on the left; the logarithm of r is
 // this sum with the θ on the right.
 Rotation::Rotation(const RotationAngles& turn) {
     glm::dvec3 left(0), right(0);
@@ -114,7 +115,7 @@ Rotation::Rotation(const RotationAngles& turn) {
 }
 
 RotationAngles Rotation::turn() const {
-    // The pair (−l, −r) is the same rotation as (l, r); `sign` is −1 if it gives smaller angles.
+    // The quaternions (−l, −r) give the same rotation as (l, r). `sign` is −1 if (−l, −r) give smaller angles.
     const double sign = left_.w + right_.w < 0 ? -1 : 1;
     const glm::dvec3 left = logarithm(sign * left_), right = logarithm(sign * right_);
     constexpr double kRounding = 1e-12;

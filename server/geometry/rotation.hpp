@@ -29,16 +29,16 @@ std::string_view name(Plane plane);
 /// Returns the plane with this name, or an empty optional if no plane has this name.
 std::optional<Plane> planeNamed(std::string_view text);
 
-/// A rotation that is described by angles in coordinate planes, in radians. The rotation turns in all these planes at
-/// the same time. It is exp(Σ θ_ab G_ab), where θ_ab is the angle in the plane ab, and G_ab is the matrix for which
-/// exp(θ G_ab) is the simple rotation R_ab(θ). Angles in two perpendicular planes give a double rotation. Angles in
-/// planes that share an axis give a rotation in oblique planes.
+/// A turn: a rotation that is described by angles in coordinate planes, in radians. The rotation turns in all these
+/// planes at the same time. It is exp(Σ θ_ab G_ab), where θ_ab is the angle in the plane ab, and G_ab is the matrix for
+/// which exp(θ G_ab) is the simple rotation R_ab(θ). Angles in two perpendicular planes give a double rotation. Angles
+/// in planes that share an axis give a rotation in oblique planes.
 class RotationAngles {
   public:
-    /// Makes a turn without a rotation: no plane has an angle.
+    /// Makes the turn that gives the identity: no plane has an angle.
     RotationAngles() = default;
-    /// Makes the simple rotation in `plane` by alpha or, if beta is given, the double rotation that also turns by beta
-    /// in the perpendicular plane. The angles are in radians.
+    /// Makes the turn by `alpha` in `plane`: a simple rotation. If `beta` is given, the turn is the double rotation
+    /// that also turns by `beta` in the perpendicular plane. The angles are in radians.
     RotationAngles(Plane plane, double alpha, std::optional<double> beta = {});
 
     /// Returns the angle in a plane, in radians. Returns an empty optional if the turn has no angle in this plane.
@@ -69,7 +69,7 @@ class Rotation {
     Rotation() = default;
     /// Makes the rotation v ↦ left·v·right. Normalizes both quaternions, which must not be 0.
     Rotation(const glm::dquat& left, const glm::dquat& right);
-    /// Makes the rotation exp(Σ θ_ab G_ab) of a turn.
+    /// Makes the rotation exp(Σ θ_ab G_ab) that `turn` describes (see RotationAngles).
     explicit Rotation(const RotationAngles& turn);
 
     /// Returns the rotation with the matrix M (v' = M v), or an empty optional if M is not a rotation matrix. M counts
@@ -89,14 +89,13 @@ class Rotation {
     /// Returns the rotation that undoes this one.
     Rotation inverse() const;
     /// Returns this rotation with the angles in its two invariant planes multiplied by `fraction`: 0 gives the
-    /// identity, and 1 gives this rotation. Of the pairs of angles that give this rotation, uses the smallest, which
-    /// are from −π to π. Exception: the invariant planes of the rotation v ↦ −v are not determined, so every
-    /// `fraction`, even 0, gives v ↦ −v.
+    /// identity, and 1 gives this rotation. The angles that are multiplied are from −π to π. Exception: the invariant
+    /// planes of the rotation v ↦ −v are not determined, so every `fraction`, even 0, gives v ↦ −v.
     Rotation power(double fraction) const;
     /// Returns the larger of the absolute values of the angles in the two invariant planes, in radians: from 0 to π.
     double largerAngle() const;
-    /// Returns the turn with the smallest angles that gives this rotation. The turn has no angle in planes where the
-    /// angle is 0 except for rounding errors, so the turn of the identity has no angles. For the rotation v ↦ −v,
+    /// Returns the turn with the smallest angles that gives this rotation. Where an angle would be 0 except for
+    /// rounding errors, the turn has no angle, so the turn of the identity has no angles. For the rotation v ↦ −v,
     /// returns one of several turns.
     RotationAngles turn() const;
     /// Returns the image of v.

@@ -14,8 +14,8 @@ namespace oval4d::geometry {
 
 namespace {
 
-// Throws InvalidSurface if the 2-face `face` with this vertex loop is invalid. `vertices` is the number of vertices of
-// the surface. Overwrites `sorted`, which is only working memory.
+// Throws InvalidSurface if the vertex loop of a 2-face is invalid. `face` is the index of the 2-face, and `vertices`
+// the number of vertices of the surface. Overwrites `sorted`, which is only working memory.
 void checkFace(std::uint32_t face, std::span<const std::uint32_t> loop, std::size_t vertices,
                std::vector<std::uint32_t>& sorted) {
     const std::string name = "2-face " + std::to_string(face);

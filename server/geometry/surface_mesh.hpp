@@ -46,7 +46,7 @@ SurfaceMesh makeSurfaceMesh(std::string name, std::vector<glm::dvec4> vertices, 
 /// Returns the surface in the coordinates of the frame of reference `frame`, with the serial number `serial`.
 SurfaceMesh transformedTo(const SurfaceMesh& surface, const ReferenceFrame& frame, std::uint64_t serial);
 
-/// Returns the memory that the surface occupies, in bytes, without its name.
+/// Returns the memory that the surface occupies, in bytes. The text of its name does not count.
 std::size_t memoryOf(const SurfaceMesh& surface);
 
 }  // namespace oval4d::geometry

@@ -20,7 +20,7 @@ constexpr std::size_t byteCount(int width, int height) {
     return 4 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
 }
 
-/// A reference to an image with the layout of Image. The view does not own the pixels.
+/// A view of an image with the layout of Image. It does not own the pixels.
 struct ImageView {
     int width = 0, height = 0;
     std::span<const std::uint8_t> pixels;

@@ -19,11 +19,12 @@ constexpr std::uint8_t kSignature[] = {137, 'P', 'N', 'G', '\r', '\n', 26, '\n'}
 // The start of the data of an iTXt chunk (PNG specification, section 11.3.3.4): the keyword and a zero, no compression,
 // compression method 0, then an empty language tag and an empty translated keyword, each with a terminating zero.
 constexpr char kStateHeader[] = "oval4d\0\0\0\0";
-// RFC 1950: the method deflate, a window of 32 KiB, and the fastest level
+// The zlib header (RFC 1950): the method deflate, a window of 32 KiB, and the fastest level.
 constexpr std::uint8_t kZlibHeader[] = {0x78, 1};
-constexpr int kLevel = 1;
-constexpr std::uint32_t kLevelBuffer = ISAL_DEF_LVL1_DEFAULT;
-// In bytes before compression; for less data, two cores are not faster than one.
+constexpr int kLevel = 1;                                      // the compression level of igzip
+constexpr std::uint32_t kLevelBuffer = ISAL_DEF_LVL1_DEFAULT;  // the working memory of this level, in bytes
+// An image of at least this many bytes before compression is encoded on two cores. For a smaller image, two cores are
+// not faster than one.
 constexpr std::size_t kLarge = 1'000'000;
 
 void writeBigEndian32(std::uint8_t* at, std::uint32_t value) {
@@ -53,8 +54,8 @@ void endChunk(Bytes& out, std::size_t start) {
     writeBigEndian32(out.data() + out.size() - 4, crc);
 }
 
-/// Compresses `in` as one piece of a deflate stream, and appends the piece to `out`. `last` says whether this piece is
-/// the last one of the stream. `levelBuffer` is working memory.
+/// Compresses `in` as one piece of a deflate stream, and appends the compressed piece to `out`. `last` says whether
+/// this piece is the last one of the stream. `levelBuffer` is working memory. Throws std::runtime_error if igzip fails.
 void deflate(Bytes& in, bool last, Bytes& levelBuffer, Bytes& out) {
     isal_zstream stream;
     isal_deflate_init(&stream);
@@ -83,7 +84,7 @@ void deflate(Bytes& in, bool last, Bytes& levelBuffer, Bytes& out) {
 /// the two strings, and `size` is the size of the second string in bytes.
 std::uint32_t combinedAdler32(std::uint32_t first, std::uint32_t second, std::size_t size) {
     constexpr std::uint64_t kBase = 65521;
-    const std::uint64_t a = (first & 0xffffU) + kBase - 1;  // both checksums start at 1, which must count only once
+    const std::uint64_t a = (first & 0xffffU) + kBase - 1;  // − 1: only one of the two initial 1s counts
     const std::uint64_t low = a + (second & 0xffffU);
     const std::uint64_t high = (first >> 16U) + (second >> 16U) + size % kBase * a;
     return static_cast<std::uint32_t>(((high % kBase) << 16U) | (low % kBase));

@@ -5,9 +5,8 @@
 #include <cstring>
 #include <utility>
 
-// How rows are filtered: all rows except the first have the same filter. Choosing the best filter for each row, as
-// libpng does, would take longer than deflate (the compression), and would not make the files of these pictures
-// smaller.
+// All rows except the first have the same filter. Choosing the best filter for each row, as libpng does, would take
+// longer than the compression, and would not make the files of oval4d's pictures smaller.
 
 namespace oval4d::image {
 
@@ -23,8 +22,7 @@ int paeth(int left, int above, int upperLeft) {
 }
 
 /// Subtracts the Paeth prediction from `count` RGBA pixels, which begin at `row`, and writes the differences as RGB to
-/// `out`. `above` is the pixel above the first of these pixels. Also reads the pixels to the left of `row` and of
-/// `above`.
+/// `out`. `above` points to the pixel above `row`. Also reads the pixels to the left of `row` and of `above`.
 void subtractPaethScalar(const std::uint8_t* row, const std::uint8_t* above, std::uint8_t* out, std::size_t count) {
     for (std::size_t i = 0; i < count; ++i) {
         for (std::size_t c = 0; c < 3; ++c) {
@@ -41,11 +39,11 @@ using EightPixels = std::uint8_t __attribute__((vector_size(32)));
 
 // Does the same as subtractPaethScalar(), but processes eight pixels at a time, in 8-bit arithmetic. Let x be the
 // pixel, and a, b and c its left, upper and upper-left neighbors. The prediction of x is the one of a, b and c that is
-// nearest to a + b − c. If a and b are both greater or both less than c, then c is the farthest from a + b − c. So the
-// exact distance of c, which may not fit into a byte, does not matter.
+// nearest to a + b − c. If a and b are both greater or both less than c, then c is the farthest from a + b − c. In this
+// case, the exact distance of c does not matter; it may not fit into a byte.
 //
-// Each store writes eight bytes too many, which the next store overwrites. The scalar loop processes the last pixels of
-// a row, so that no byte is written past the end of the row.
+// Each store writes eight bytes too many, which the next store overwrites. subtractPaethScalar() processes the last
+// pixels of a row, so that no byte is written past the end of the row.
 __attribute__((target("avx2"))) void subtractPaethAvx2(const std::uint8_t* row, const std::uint8_t* above,
                                                        std::uint8_t* out, std::size_t count) {
     std::size_t i = 0;
@@ -101,8 +99,8 @@ void divideByAlpha(const std::uint8_t* row, std::vector<std::uint8_t>& out) {
     }
 }
 
-/// Writes the filtered rows of an image with alpha, as makeFilteredRows() specifies. Such images need not be encoded as
-/// fast as the pictures of a live view. So this function processes one byte at a time.
+/// Writes the filtered rows of an image with alpha, as makeFilteredRows() specifies. Processes one byte at a time,
+/// because such images need not be encoded as fast as the pictures of a live view.
 void makeFilteredAlphaRows(const image::ImageView& image, int from, int to, std::vector<std::uint8_t>& out) {
     const std::size_t bytes = 4 * static_cast<std::size_t>(image.width);
     out.resize((bytes + 1) * static_cast<std::size_t>(to - from));
@@ -113,8 +111,8 @@ void makeFilteredAlphaRows(const image::ImageView& image, int from, int to, std:
         divideByAlpha(pixelRow(image, y), row);
         *at++ = y == 0 ? kSub : kPaeth;
         for (std::size_t i = 0; i < bytes; ++i) {
-            // In row 0, the row above counts as zeros. Then the filter Paeth predicts the left neighbor, as the filter
-            // Sub does.
+            // In row 0, `above` contains zeros. Then the filter Paeth predicts the left neighbor, as the filter Sub
+            // does.
             const int left = i < 4 ? 0 : row[i - 4], upperLeft = i < 4 ? 0 : above[i - 4];
             *at++ = static_cast<std::uint8_t>(row[i] - paeth(left, above[i], upperLeft));
         }
@@ -136,7 +134,7 @@ void makeFilteredRows(const image::ImageView& image, int from, int to, std::vect
         const std::uint8_t* row = pixelRow(image, y);
         const std::uint8_t* above = row + width * 4;
         at[0] = y == 0 ? kSub : kPaeth;
-        // The first pixel has no left neighbor, so Paeth predicts the upper neighbor.
+        // The first pixel of a row has no left neighbor, so Sub predicts 0, and Paeth predicts the upper neighbor.
         for (std::size_t c = 0; c < 3; ++c) {
             at[1 + c] = static_cast<std::uint8_t>(row[c] - (y == 0 ? 0 : above[c]));
         }

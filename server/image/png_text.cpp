@@ -25,7 +25,7 @@ bool isPng(std::string_view file) { return file.starts_with(kPngStart); }
 std::optional<std::string_view> stateTextIn(std::string_view file) {
     if (!isPng(file)) return {};
     file.remove_prefix(kPngStart.size());
-    // The number of bytes of a chunk that are not data: its length, type and checksum.
+    // The number of bytes of a chunk besides its data: 4 each for its length, type and checksum.
     constexpr std::size_t kAround = 12;
     while (file.size() >= kAround) {
         const std::size_t length = readBigEndian32(file);

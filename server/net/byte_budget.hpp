@@ -14,8 +14,8 @@ namespace oval4d::net {
 /// - objects that clients have loaded or built by name;
 /// - undo histories.
 ///
-/// One budget covers all clients together. An Account counts the bytes of one client; they are reserved there before
-/// they are used. Every function may be called from any thread.
+/// One budget covers all clients together. An Account counts the bytes of one client. The server reserves bytes on the
+/// client's account before it uses them. Every function may be called from any thread.
 class ByteBudget {
   public:
     class Account;

@@ -19,8 +19,10 @@ using asio::ip::address_v6;
 namespace {
 
 constexpr double kMinute = 60;
-constexpr std::size_t kFirstSweep = 256;     // forgetIdleClients() is first called at this number of clients
-constexpr std::size_t kMaxClients = 65'536;  // clients with an account of their own; further clients share one account
+// forgetIdleClients() is first called when this many clients are known.
+constexpr std::size_t kFirstSweep = 256;
+// The maximum number of clients with an account of their own. Further clients share one account.
+constexpr std::size_t kMaxClients = 65'536;
 constexpr unsigned kBits = 128, kMappedBits = 96;
 
 address_v6 asIPv6(const address& any) {

@@ -21,13 +21,14 @@ namespace oval4d::net {
 
 /// The limits on one client. ServerOptions has the limits on all clients together.
 struct ClientLimits {
-    std::size_t connections = 2048;                  ///< open connections
-    std::size_t sessions = 2500;                     ///< open sessions, and closed sessions that have not expired
-    double newSessionsPerMinute = 2000;              ///< new sessions per minute, which may all come at once
-    double wrongTokensPerMinute = 20;                ///< wrong tokens per minute, which may all come at once
+    std::size_t connections = 2048;                  ///< maximum number of open connections
+    std::size_t sessions = 2500;                     ///< maximum number of open sessions, and of closed sessions that
+                                                     ///< have not expired, together
+    double newSessionsPerMinute = 2000;              ///< maximum new sessions per minute; all may come at once
+    double wrongTokensPerMinute = 20;                ///< maximum wrong tokens per minute; all may come at once
     double requestsPerSecond = 20'000;               ///< messages and HTTP requests per second; excess ones are delayed
     std::size_t messageBytesPerSecond = 16U << 20U;  ///< bytes of messages per second; excess messages are delayed
-    std::size_t bytes = 1U << 30U;                   ///< bytes held for the client (ByteBudget)
+    std::size_t bytes = 1U << 30U;                   ///< maximum bytes held for the client (ByteBudget)
 };
 
 /// The account of one client. It has the client's rate limits, the count of the bytes that the server holds for the
@@ -53,24 +54,24 @@ class ClientAccount {
     /// caller must then refuse even correct tokens.
     bool mayTryToken(Clock::time_point now) const;
 
-    /// Counts a message or an HTTP request against the rate limits. `bytes` is its size. Returns how long the caller
-    /// must delay it.
+    /// Counts a message or an HTTP request of `bytes` bytes against the rate limits. Returns how long the caller must
+    /// delay the message or request.
     std::chrono::duration<double> countMessage(std::size_t bytes, Clock::time_point now);
 
-    /// Counts one part of a request body against the limit of bytes per second. `bytes` is the part's size. Returns how
-    /// long the caller must wait before it reads the next part.
+    /// Counts a part of a request body, `bytes` bytes long, against the limit of bytes per second. Returns how long the
+    /// caller must wait before it reads the next part.
     std::chrono::duration<double> countBytes(std::size_t bytes, Clock::time_point now);
 
     /// Returns the account that counts the bytes held for this client.
     ByteBudget::Account& byteAccount() { return *bytes_; }
 
-    /// These functions return the client's flows (see parallel::FairQueue). A flow is the client's share of one worker
-    /// pool: pictureFlow() belongs to the picture workers, exportFlow() to the export workers. Each session of the
-    /// client creates its own job queue in each flow.
+    /// pictureFlow() and exportFlow() return the client's flows (see parallel::FairQueue). A flow is the client's share
+    /// of one worker pool: pictureFlow() belongs to the picture workers, exportFlow() to the export workers. Each
+    /// session of the client creates its own job queue in each flow.
     const parallel::WorkerPool::ClientFlowPtr& pictureFlow() const { return pictureFlow_; }
     const parallel::WorkerPool::ClientFlowPtr& exportFlow() const { return exportFlow_; }
-    /// These functions return the client's job queues for work that belongs to no session. pictureJobQueue() is in the
-    /// pool of picture workers, exportJobQueue() in the pool of export workers.
+    /// pictureJobQueue() and exportJobQueue() return the client's job queues for work that belongs to no session:
+    /// pictureJobQueue() for the pool of picture workers, exportJobQueue() for the pool of export workers.
     const parallel::WorkerPool::JobQueuePtr& pictureJobQueue() const { return pictureJobQueue_; }
     const parallel::WorkerPool::JobQueuePtr& exportJobQueue() const { return exportJobQueue_; }
     /// Returns the client's job queue in the pool of load workers (see Services::loadWorkers).
@@ -107,7 +108,7 @@ class IpNetwork {
 
   private:
     boost::asio::ip::address_v6 first_;  // the first address; IPv4 addresses are mapped to IPv6
-    unsigned bits_;                      // prefix length of first_, from 0 to 128
+    unsigned bits_;                      // how many leading bits of first_ all addresses share, from 0 to 128
 };
 
 /// The accounts of all known clients, by address. Every function may be called from any thread.
@@ -127,8 +128,8 @@ class ClientAccounts {
     /// Returns the address of the client behind one or more proxies. `forwardedFor` is the value of X-Forwarded-For.
     /// Starts at the address `proxy`, and goes through the entries of `forwardedFor` from the last one to the first.
     /// Moves on while the current address belongs to a trusted proxy and the next entry is an address (see
-    /// forwardedAddress()). Returns the address at which it stops. Logs a warning at the first entry that is not an
-    /// address.
+    /// forwardedAddress()). Returns the address at which it stops. The first time that an entry is not an address, logs
+    /// a warning.
     boost::asio::ip::address clientAddress(std::string_view forwardedFor, const boost::asio::ip::address& proxy) const;
 
     /// Returns the number of bytes held for all clients together.

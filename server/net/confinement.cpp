@@ -6,18 +6,18 @@ namespace {
 
 using process::SandboxMode;
 
-// The maximum number of file descriptors of a child process. Needed are the standard streams, the channel to the
+// The number of file descriptors that every child process may have: for the standard streams, the channel to the
 // server, a descriptor that arrives over this channel, and descriptors that libraries keep open.
 constexpr std::size_t kOwnFiles = 16;
 
-/// Returns the memory limit of a rasterizer process (draws pictures outside the server), in bytes. If
+/// Returns the memory limit, in bytes, of a rasterizer process, which draws pictures outside the server. If
 /// `options.drawMemory` is 0, the limit is an upper bound of what pictures within the other limits need. Most of that
 /// memory is never touched.
 std::size_t rasterizerMemoryLimit(const ServerOptions& options) {
     if (options.drawMemory > 0) return options.drawMemory;
-    // All are in bytes. kOwn is for llvmpipe (the software renderer) and the C library, with a heap for each thread.
-    // kEachPixel covers sixteen buffers of four bytes. kEachSliceEdge covers an edge of the slices and the shapes that
-    // are drawn for it; measurements gave at most 260 bytes.
+    // These constants are in bytes. kOwn is for llvmpipe (the software renderer) and the C library, with a heap for
+    // each thread. kEachPixel covers sixteen buffers of four bytes. kEachSliceEdge covers an edge of the slices and the
+    // shapes that are drawn for it; measurements gave at most 260 bytes.
     constexpr std::size_t kOwn = std::size_t{3} << 30U, kEachPixel = 64, kEachSliceEdge = 512;
     const auto pixels = static_cast<std::size_t>(options.frame.maxPixels);
     return kOwn + kEachPixel * pixels + kEachSliceEdge * options.picture.sliceEdges + options.polytopeCache;

@@ -16,11 +16,11 @@ namespace oval4d::net {
 /// the log; throws std::runtime_error if the options require a sandbox.
 std::vector<std::string> childEnvironment(const ServerOptions& options, std::size_t workers, std::string& warning);
 
-/// Returns the limits that a rasterizer process (draws pictures outside the server) applies to itself. `options` must
-/// come from the variables that childEnvironment() returns.
+/// Returns the limits that a rasterizer process, which draws pictures, applies to itself. `options` must have been
+/// parsed from the environment variables that childEnvironment() returned.
 process::Confinement rasterizerConfinement(const ServerOptions& options);
-/// Returns the limits that a file reader process (parses files outside the server) applies to itself. `options` must
-/// come from the variables that childEnvironment() returns.
+/// Returns the limits that a file reader process, which parses clients' files, applies to itself. `options` must have
+/// been parsed from the environment variables that childEnvironment() returned.
 process::Confinement fileReaderConfinement(const ServerOptions& options);
 
 }  // namespace oval4d::net

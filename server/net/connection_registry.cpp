@@ -67,8 +67,8 @@ std::size_t ConnectionRegistry::connectionCountOf(const ClientAccount* client) c
     return count == counts_.end() ? 0 : count->second;
 }
 
-/// Removes the oldest idle connection of this client from the registry. Returns the handler that ends the connection;
-/// an empty function if no connection of the client is idle.
+/// Removes the oldest idle connection of this client from the registry. Returns the handler that ends the connection.
+/// Returns an empty function if the client has no idle connection with a handler.
 ConnectionRegistry::EndHandler ConnectionRegistry::evictIdle(const ClientAccount* client) {
     const auto idle = std::ranges::find_if(entries_, [client](const auto& entry) {
         return entry.second.client.get() == client && !entry.second.inUse && entry.second.end;

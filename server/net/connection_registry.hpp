@@ -39,7 +39,7 @@ class ConnectionRegistry {
         /// Marks the connection as in use or as idle. A connection in use is never evicted. A new connection is idle.
         void setInUse(bool inUse);
 
-        /// Assigns the connection to another client. A trusted proxy has named this client in X-Forwarded-For.
+        /// Assigns the connection to another client, which a trusted proxy has named in X-Forwarded-For.
         void setClient(const ClientAccountPtr& client);
 
       private:
@@ -52,8 +52,9 @@ class ConnectionRegistry {
     /// Decides whether to admit one more connection of this client. At a limit, evicts idle connections, the oldest
     /// first, until there is room. If the client is at its own limit, these are connections of this client; otherwise,
     /// connections of the client that has the most. Returns the reached limit if no such idle connection is left.
-    /// `registered` is the number of registrations that the new connection already has (0 or 1); they are not counted.
-    /// `isProxy` tells whether the client is a trusted proxy, to which the limit per client does not apply.
+    /// `registered` is the number of registrations that the new connection already has (0 or 1); these do not count
+    /// against the limits. `isProxy` tells whether the client is a trusted proxy, to which the limit per client does
+    /// not apply.
     AdmissionDecision makeRoomFor(const ClientAccount& client, std::size_t registered = 0, bool isProxy = false);
 
     /// Returns the number of connections in the registry.

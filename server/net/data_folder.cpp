@@ -28,13 +28,15 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Opens a file or folder for reading, without following symbolic links. `folder` is the descriptor of the folder that
-/// contains it; `flags` are further flags for openat(). Returns the new descriptor, or -1 on failure.
+/// Opens the file or folder `name` for reading; fails if it is a symbolic link. `folder` is the descriptor of the
+/// folder that contains `name`, or AT_FDCWD if `name` is a path. `flags` are further flags for openat(). Returns the
+/// new descriptor, or −1 on failure.
 int openWithoutFollowing(int folder, const std::string& name, int flags) {
     return openat(folder, name.c_str(), flags | O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
 }
 
-/// Returns a text that identifies the version of a file. The text changes when the file with this status changes.
+/// Returns a text that identifies the version of the file with the status `status`. The text changes when the file
+/// changes.
 std::string fileVersionOf(const struct stat& status) {
     return std::to_string(status.st_ino) + ':' + std::to_string(status.st_size) + ':' +
            std::to_string(status.st_mtim.tv_sec) + '.' + std::to_string(status.st_mtim.tv_nsec) + ';';
@@ -48,7 +50,7 @@ std::string fileVersionOf(int file) {
 }
 
 /// Returns a text that identifies the version of a Zarr folder; an empty string if `folder` is not a Zarr folder. The
-/// text changes when its metadata change, or when files directly in it are added or removed.
+/// text changes when the metadata of the folder change, or when files directly in the folder are added or removed.
 std::string versionOfZarr(int folder) {
     std::string version;
     for (const std::string_view name : fields::kZarrFiles) {
@@ -70,7 +72,7 @@ std::string versionOfZarr(int folder) {
 /// symbolic links. Considers at most kMaxFiles files, because reading the status of each file takes time.
 std::string versionOfFilesIn(const fs::path& folder) {
     constexpr std::size_t kMaxFiles = 10'000;
-    std::size_t count = 0, sum = 0;  // a sum does not depend on the order in which the files are found
+    std::size_t count = 0, sum = 0;  // `sum`, of hashes, does not depend on the order in which the files are found
     std::error_code fault;
     for (fs::recursive_directory_iterator entry(folder, fault), end; !fault && entry != end && count < kMaxFiles;
          entry.increment(fault)) {
@@ -118,7 +120,7 @@ bool isAllowedName(const std::string& name) {
 }
 
 /// Returns a cache key for the result of reading `load`. The key contains everything that determines the result, except
-/// the name of the field.
+/// the name of the field. `version` identifies the version of the file or folder.
 std::string cacheKeyOf(const session::LoadObject& load, const std::string& version) {
     std::string key = load.dataName + '\0' + load.format + '\0' + load.axes + '\0' + load.variable + '\0';
     key += load.secondFormula + '\0' + load.secondVariable + '\0';
@@ -136,8 +138,8 @@ std::string cacheKeyOf(const session::LoadObject& load, const std::string& versi
 
 /// Returns a copy of the loaded field in which Field::shared is true. The memory of such a field does not count against
 /// the sessions that use it, because DataFolder::bytes_ counts it. Sets Field::source if the samples are in a mapped
-/// file, are a part of an array, or have replaced a coarser level of an image. Returns an error if the object is not an
-/// array.
+/// file, are a part of an array, or have replaced a coarser level of an image. Returns the error `bad_field` if the
+/// object is not an array.
 Result<session::ObjectWithWarnings> copyMarkedShared(session::ObjectWithWarnings loaded,
                                                      const session::LoadObject& load) {
     const fields::Field* const field = slicing::fieldIn(loaded.object);
@@ -188,7 +190,7 @@ std::optional<std::vector<std::string>> DataFolder::cachedNames() const {
 
 std::vector<std::string> DataFolder::namesInObjectStore() const {
     std::vector<std::string> found;
-    const auto text = store_->get("index.json", {});  // an error is in the log
+    const auto text = store_->get("index.json", {});  // get() logs its errors
     if (!text || !*text) return found;
     const auto list = nlohmann::json::parse(**text, nullptr, false);
     if (!list.is_array()) {
@@ -284,8 +286,9 @@ std::string DataFolder::currentVersion(const OpenedEntry& opened) {
     return version;
 }
 
-/// Returns a field of the cache under the name `name`, and marks it as the most recently used. Returns an empty
-/// optional if the cache lacks the field or if the field's file can no longer be read. The caller must hold mutex_.
+/// Returns the cached field with the key `key`, or a copy of it with the name `name` if its name differs. Marks the
+/// field as the most recently used. Returns an empty optional if the cache lacks the field or if the field's file can
+/// no longer be read. The caller must hold mutex_.
 std::optional<session::ObjectWithWarnings> DataFolder::find(const std::string& key, const std::string& name) {
     const auto found = std::ranges::find(recent_, key, &CachedField::key);
     if (found == recent_.end()) return {};
@@ -308,8 +311,8 @@ std::optional<session::ObjectWithWarnings> DataFolder::find(const std::string& k
     return loaded;
 }
 
-/// Drops the least recently used field that no session uses. If `onDisk` is true, considers only fields with a file in
-/// the field cache. Returns false if there is no such field. The caller must hold mutex_.
+/// Drops the least recently used field among those that no session uses. If `onDisk` is true, considers only fields
+/// with a file in the field cache. Returns false if there is no such field. The caller must hold mutex_.
 bool DataFolder::evictUnusedField(bool onDisk) {
     const auto isUnused = [&](const CachedField& field) {
         return std::get<slicing::FieldPtr>(field.loaded.object).use_count() == 1 && (field.onDisk || !onDisk);
@@ -321,7 +324,8 @@ bool DataFolder::evictUnusedField(bool onDisk) {
     return true;
 }
 
-/// Makes a file of this size in the field cache. If there is no room, drops unused fields that have a file there.
+/// Makes a file of `bytes` bytes in the field cache. If there is no room, first drops fields that no session uses and
+/// that have a file there.
 /// Errors: those of FieldCacheFiles::allocateFile(); `too_many` if the fields in use leave no room.
 Result<FieldCacheFiles::FilePtr> DataFolder::makeCacheFile(std::size_t bytes) {
     const std::lock_guard lock(mutex_);

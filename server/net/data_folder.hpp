@@ -53,8 +53,8 @@ class DataFolder {
     /// calling thread while it reads the folder, unless cachedNames() has the names. An object store lists its names in
     /// its object index.json, a JSON array of strings; without this object, there are no names.
     std::vector<std::string> entryNames() const;
-    /// Returns the result of the last names(), if it began to read the folder less than kListedFor ago; otherwise an
-    /// empty optional. Without a data folder, returns an empty list.
+    /// Returns the names that entryNames() read last, if it began to read the folder less than kListedFor ago;
+    /// otherwise an empty optional. Without a data folder, returns an empty list.
     std::optional<std::vector<std::string>> cachedNames() const;
 
     /// Returns the field of the entry `load.dataName`. If the field is not in memory, calls `reader` with a copy of
@@ -72,17 +72,17 @@ class DataFolder {
     /// Returns the memory that all fields from the folder take, in bytes.
     std::size_t bytesInMemory() const;
 
-    /// The maximum number of names that names() returns, and the maximum number of files in a series.
+    /// The maximum number of names that entryNames() returns, and the maximum number of files in a series.
     static constexpr std::size_t kMaxNames = 1000, kMaxSeries = 1000;
-    /// For this time, cachedNames() returns names that were read from the folder before.
+    /// The time for which cachedNames() returns the names that were read last.
     static constexpr std::chrono::seconds kListedFor{2};
 
   private:
     using Clock = std::chrono::steady_clock;
     // An entry that open() has opened: a file, a Zarr folder or a series.
     struct OpenedEntry {
-        std::vector<std::shared_ptr<const fields::FileHandle>> files;
-        std::shared_ptr<const fields::FolderFileProvider> folder;  // the Zarr folder, instead of `files`; else null
+        std::vector<std::shared_ptr<const fields::FileHandle>> files;  // the file, or the files of the series
+        std::shared_ptr<const fields::FolderFileProvider> folder;      // the Zarr folder, instead of `files`; else null
         bool series = false;
         std::string version;  // changes with `files` or the metadata of the Zarr folder
         // Changes when a chunk of the Zarr folder changes; empty without a Zarr folder. Such a change during read() is
@@ -119,8 +119,8 @@ class DataFolder {
     mutable std::vector<std::string> names_;
     mutable Clock::time_point listed_ = Clock::time_point::min();
     // Guards the members below. A thread may hold this mutex while it allocates or frees gigabytes on the disk. The
-    // threads that serve sockets must not wait for that: they call cachedNames() and bytesInMemory(), which do not lock
-    // it.
+    // threads that serve sockets must not wait for that. They call only cachedNames() and bytesInMemory(), which do not
+    // lock the mutex.
     std::mutex mutex_;
     std::list<CachedField> recent_;      // the most recently used first
     std::atomic<std::size_t> bytes_{0};  // total memory of the fields in `recent_`, in bytes

@@ -1,5 +1,6 @@
 #pragma once
-// Files of samples for large fields of the data folder. Their original files cannot be mapped into memory as they are.
+// Files with the converted samples of large fields. The files from which these fields come cannot be mapped into memory
+// as they are.
 
 #include <atomic>
 #include <cstddef>
@@ -17,13 +18,13 @@ namespace oval4d::net {
 /// crashes. Thread-safe.
 class FieldCacheFiles {
   public:
-    /// `folder` is empty for /var/tmp, which is on a disk even where /tmp is in memory. `bytes` is the maximum total
-    /// size of the files.
+    /// `folder` is the folder of the files. If it is empty, the folder is /var/tmp, which is on a disk even where /tmp
+    /// is in memory. `bytes` is the maximum total size of the files.
     FieldCacheFiles(const std::string& folder, std::size_t bytes);
 
     using FilePtr = std::shared_ptr<const fields::FileHandle>;
 
-    /// Returns a new file of this size. Reserves its space on the disk if the file system can do so; writing to the
+    /// Returns a new file of `bytes` bytes. Reserves its space on the disk if the file system can do so; writing to the
     /// file then cannot fail for lack of space. Returns a null pointer if only the total size of all files would exceed
     /// the limit. This object must outlive the file. Errors: `too_large` if the file alone exceeds the limit;
     /// `internal` if it cannot be made; `too_many` if the disk is full.

@@ -20,7 +20,8 @@ namespace {
 using fields::FilePart;
 
 constexpr std::size_t kMaxKey = 1024;  // maximum length of a path in bytes, the limit of S3
-// At most this many bytes of an error page are read. The connection can then be used again.
+// An error page of at most this many bytes is read to its end, so that the connection can be used again. A longer error
+// page ends the transfer.
 constexpr std::size_t kMaxErrorPage = std::size_t{64} << 10U;
 constexpr long kOk = 200, kPartialContent = 206;
 
@@ -31,7 +32,7 @@ struct CurlTransfer {
     std::size_t maxBytes;
     const std::stop_token& stop;
     std::string bytes = {};
-    std::size_t ignored = 0;  // bytes of an answer with another status
+    std::size_t ignored = 0;  // number of bytes that were ignored, because the status is not wantedStatus
     bool isTooLarge = false;
 };
 
@@ -47,7 +48,7 @@ std::size_t onAnswerBytes(char* from, std::size_t /*one*/, std::size_t count, vo
     const long status = statusOf(transfer.handle);
     if (status != transfer.wantedStatus) {
         transfer.ignored += count;
-        // With status 200, the store sends the whole object instead of the requested part.
+        // The status 200 instead of 206 means that the store sends the whole object instead of the requested part.
         return status == kOk || transfer.ignored > kMaxErrorPage ? 0 : count;
     }
     transfer.isTooLarge = count > transfer.maxBytes - transfer.bytes.size();
@@ -85,8 +86,8 @@ std::string rangeHeaderOf(const FilePart& part) {
     return std::to_string(part.offset) + '-' + (endsWithFile ? "" : std::to_string(part.offset + part.size - 1));
 }
 
-// Removes a number, and the character `after` behind it, from the start of `text`. Returns an empty optional if the
-// text does not start so.
+// Removes a number and the character `after`, which must follow it, from the start of `text`. Returns the number, or an
+// empty optional if `text` starts in another way. If `after` is '\0', no character need follow.
 std::optional<std::uint64_t> takeNumberBefore(std::string_view& text, char after) {
     std::uint64_t number = 0;
     const auto [end, fault] = std::from_chars(text.data(), text.data() + text.size(), number);
@@ -156,7 +157,7 @@ std::string transferFailureReason(long status, bool isPart) {
 }
 
 long curlMilliseconds(std::chrono::duration<double> time) {
-    constexpr double kMost = 1e9;  // so large that a `long` can still represent it
+    constexpr double kMost = 1e9;  // in milliseconds; fits into a `long` of 32 bits
     return static_cast<long>(std::clamp(time.count() * 1000, 1.0, kMost));
 }
 
@@ -228,7 +229,7 @@ Result<std::optional<std::string>> ObjectStore::get(const std::string& path, con
     CURL* const handle = owned.get();
     CurlTransfer transfer{handle, isPart ? kPartialContent : kOk, limits_.objectBytes, stop};
     const std::string range = isPart ? rangeHeaderOf(part) : "";
-    curl_easy_reset(handle);  // keeps the connection
+    curl_easy_reset(handle);  // resets all options, but keeps the connection open
     curl_easy_setopt(handle, CURLOPT_URL, url.c_str());
     curl_easy_setopt(handle, CURLOPT_PROTOCOLS_STR, "http,https");
     curl_easy_setopt(handle, CURLOPT_FOLLOWLOCATION, 0L);
@@ -251,7 +252,7 @@ Result<std::optional<std::string>> ObjectStore::get(const std::string& path, con
     }
     if (code == CURLE_ABORTED_BY_CALLBACK) return Error{ErrorCode::internal, "the server stops reading this field"};
     if (transfer.isTooLarge) return tooLarge;
-    // If onAnswerBytes() has ended a transfer, its status tells more than its code.
+    // If onAnswerBytes() has ended the transfer, `status` says more about the reason than `code`.
     if (code != CURLE_OK && (code != CURLE_WRITE_ERROR || status == transfer.wantedStatus))
         return refused(transferFailureReason(code));
     constexpr long kNotFound = 404, kGone = 410, kRangeNotSatisfiable = 416;

@@ -23,8 +23,8 @@ struct ObjectStoreLimits {
 };
 
 /// Reads objects whose addresses begin with one base address, which the server's operator chooses. Does not follow
-/// redirects, so that no request goes to another address. Keeps connections open: one for each thread that has made a
-/// request at the same time as others. Thread-safe.
+/// redirects, so that no request goes to another address. Keeps as many connections open as there have been requests at
+/// the same time. Thread-safe.
 class ObjectStore {
   public:
     using Clock = std::chrono::steady_clock;
@@ -41,8 +41,8 @@ class ObjectStore {
 
     /// Reads a part of an object; fewer bytes if the object ends before the part does. `path` is relative to the base
     /// address. It consists of names separated by slashes, without percent encoding. Returns an empty optional if there
-    /// is no such object (404 or 410), or if a name in `path` is empty, "." or "..". Blocks the calling thread until
-    /// `until`, until the maximum time of a request has passed, or until a stop is requested (within a second).
+    /// is no such object (404 or 410), or if a name in `path` is empty, "." or "..". Blocks the calling thread at most
+    /// until `until` and for the maximum time of a request. Returns within about a second if a stop is requested.
     ///
     /// Errors: `too_large` if the part exceeds the allowed size; `internal` if the store cannot be reached, does not
     /// answer in time, redirects, answers with an error, sends a whole object instead of a part, or sends another
@@ -63,7 +63,7 @@ class ObjectStore {
     std::string address_;  // ends with a slash
     const ObjectStoreLimits limits_;
     mutable std::mutex mutex_;
-    mutable std::vector<CurlHandle> idle_;  // guarded by mutex_; at most as many as threads have made requests at once
+    mutable std::vector<CurlHandle> idle_;  // the handles that no request uses; guarded by mutex_
 };
 
 }  // namespace oval4d::net

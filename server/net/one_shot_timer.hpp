@@ -18,7 +18,7 @@ class OneShotTimer {
   public:
     using Clock = TimerClock::Clock;
 
-    /// `clock` measures the time.
+    /// `clock` measures the time, and must outlive this object.
     OneShotTimer(const TimerClock& clock, const boost::asio::any_io_executor& strand)
         : timer_(clock.makeTimer(strand)) {}
 

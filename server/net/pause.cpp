@@ -10,7 +10,8 @@ namespace oval4d::net {
 
 namespace {
 
-/// Returns a function that starts the timer. At the time `when`, the timer calls the argument of that function.
+/// Returns a function whose argument is a callback. The function starts `timer`, which calls the callback at the time
+/// `when`.
 std::function<void(std::function<void(std::monostate)>)> timerStarter(Timer& timer, Timer::Clock::time_point when) {
     return [&timer, when](const std::function<void(std::monostate)>& done) {
         timer.start(when, [done] { done(std::monostate{}); });

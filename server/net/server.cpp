@@ -59,8 +59,8 @@ store::StoreOptions storeOptions(const ServerOptions& options) {
             std::chrono::duration_cast<store::Milliseconds>(options.storeTimeout), options.storeQuota};
 }
 
-/// Returns the URL of the server at this endpoint. If the endpoint stands for all interfaces, the host in the URL is
-/// localhost, which a browser on this machine can open.
+/// Returns the URL of the server at this endpoint. If the endpoint's address stands for all interfaces, the host in the
+/// URL is localhost, which a browser on this machine can open.
 std::string urlFor(const tcp::endpoint& endpoint) {
     const bool all = endpoint.address().is_unspecified();
     const std::string address = all ? "localhost" : endpoint.address().to_string();
@@ -205,8 +205,8 @@ bool Server::listensOnlyOnLoopback() const {
                                [](const tcp::acceptor& each) { return each.local_endpoint().address().is_loopback(); });
 }
 
-/// Returns the token that clients must send: the configured token; without one, a random token if the server listens on
-/// an address other than loopback. Empty if no token is required.
+/// Returns the token that clients must send: the configured token or, without one, a random token. Returns an empty
+/// string if no token is configured, and either `open` is set or the server listens only on loopback addresses.
 std::string Server::requiredToken() const {
     if (!options_.token.empty()) return options_.token;
     return options_.open || listensOnlyOnLoopback() ? std::string() : store::randomName(kTokenBytes);
@@ -308,7 +308,7 @@ void runServer(ServerOptions options, parallel::ForkJoin& forkJoin, process::Pro
             "--open (OVAL4D_OPEN) lets everyone in without a token, so --token (OVAL4D_TOKEN) would protect nothing; "
             "set only one of them");
     raiseFileLimit();
-    std::signal(SIGPIPE, SIG_IGN);  // hiredis writes to sockets that may have closed
+    std::signal(SIGPIPE, SIG_IGN);  // otherwise, a write by hiredis to a closed socket ends this process
     std::signal(SIGXFSZ, SIG_IGN);  // a write beyond the file size limit then fails instead of ending this process
     std::signal(SIGCHLD, SIG_DFL);  // if ignored, the ids of ended children could be reused before waitpid()
     Server(std::move(options), forkJoin, heap).run();

@@ -28,11 +28,12 @@ using Seconds = std::chrono::duration<double>;
 /// The options of the server with their defaults. Sizes are in bytes unless noted.
 struct ServerOptions {
     std::vector<std::string> hosts{"127.0.0.1", "::1"};  ///< addresses to listen on
-    std::uint16_t port = 8080;                           ///< 0: any free port
+    std::uint16_t port = 8080;                           ///< TCP port to listen on; 0: any free port
     std::string webRoot;                                 ///< folder of the built web client
     int workers = 0;                                     ///< threads that slice and draw; 0: one per processor
     int exportWorkers = 1;                               ///< threads that make exported files
-    int loadWorkers = 2;                                 ///< threads that wait for files (see Services::loadWorkers)
+    int loadWorkers = 2;                                 ///< threads that wait for the reading of files (see
+                                                         ///< Services::loadWorkers)
     int ioThreads = 1;                                   ///< threads that read and write sockets
     std::string logLevel = "info";                       ///< least severe level to log, by its name in spdlog
 
@@ -58,7 +59,7 @@ struct ServerOptions {
     parallel::FairQueue::Limits jobs;               ///< maximum numbers of waiting jobs in each pool of workers
     pipeline::FrameLimits frame;                    ///< limits on the size of pictures
     pipeline::PictureWorkLimits picture;            ///< limits on the time and memory that a picture takes
-    exports::ExportLimits file;                     ///< limits on the files that clients request
+    exports::ExportLimits file;                     ///< limits on exported files
     session::Limits session;                        ///< limits of each session
     std::string store = "memory";                   ///< location of the sessions: see store::StoreOptions::url
     std::size_t storeQuota = store::kDefaultQuota;  ///< maximum total bytes of the sessions in a file or in memory

@@ -25,7 +25,7 @@ class ObjectStoreZarrFolder final : public fields::FolderFileProvider {
     Result<std::optional<fields::FoundFile>> find(const std::string& path, const fields::FilePart& part,
                                                   std::chrono::steady_clock::time_point until,
                                                   const std::stop_token& stop) const override;
-    /// Returns a text that identifies the version of the folder: it depends on the metadata that open() has read.
+    /// Returns a text that identifies the version of the folder. It depends only on the metadata that open() has read.
     std::string version() const override;
 
   private:
@@ -33,7 +33,8 @@ class ObjectStoreZarrFolder final : public fields::FolderFileProvider {
 
     const ObjectStore& store_;
     const std::string prefix_;
-    std::map<std::string, std::optional<std::string>> metadata_;  // by path; an empty optional means a missing file
+    // The texts of the metadata files that open() has read, by path. An empty optional means that the file is missing.
+    std::map<std::string, std::optional<std::string>> metadata_;
 };
 
 }  // namespace oval4d::net

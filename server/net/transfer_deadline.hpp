@@ -11,10 +11,11 @@
 namespace oval4d::net {
 
 /// Computes timeouts that enforce a minimum rate while one message, reply or body is transferred. Without a minimum
-/// rate, a very slow client could make the server hold the data for hours. Two limits apply to each fragment. It must
-/// be transferred within ServerOptions::writeTimeout. After n bytes, the next fragment must be transferred within n /
-/// ServerOptions::minReadRate + 2 · ServerOptions::writeTimeout from the start. If ServerOptions::minReadRate is 0,
-/// only the first limit applies.
+/// rate, a very slow client could make the server hold the data for hours. The data are transferred in fragments, with
+/// two limits for each: a fragment must be transferred within ServerOptions::writeTimeout. If n bytes have been
+/// transferred, the next fragment must end at the latest n / ServerOptions::minReadRate + 2 ·
+/// ServerOptions::writeTimeout after the start of the first. If ServerOptions::minReadRate is 0, only the first limit
+/// applies.
 class TransferDeadline {
   public:
     using Clock = TimerClock::Clock;
@@ -26,7 +27,8 @@ class TransferDeadline {
     /// Counts bytes that the client has accepted or sent.
     void countBytes(std::size_t bytes) { taken_ += static_cast<double>(bytes); }
 
-    /// Returns the time within which the next fragment must be transferred; 1 ms if the client is already too slow.
+    /// Returns the time from now within which the next fragment must be transferred. Returns 1 ms if the client is
+    /// already too slow.
     Clock::duration nextFragmentTimeout() const {
         const Seconds lived = clock_.now() - start_;
         const Seconds left = perSecond_ > 0 ? 2 * grace_ + Seconds(taken_ / perSecond_) - lived : grace_;

@@ -4,8 +4,9 @@
 
 namespace oval4d::net {
 
-/// Creates an unnamed file in `folder`, open for reading and writing. The system deletes the file when nothing refers
-/// to it anymore. Returns the file's descriptor. On failure, returns −1 and sets errno.
+/// Creates an unnamed file in `folder`, open for reading and writing. Returns the file's descriptor. On failure,
+/// returns −1 and sets errno. The system deletes the file when its last descriptor and its last memory mapping are
+/// gone.
 int openUnnamedFile(const std::filesystem::path& folder);
 
 }  // namespace oval4d::net

@@ -8,15 +8,15 @@ namespace {
 
 using Seconds = FairQueue::Seconds;
 
-constexpr Seconds kMinCost{1e-4};  // the minimum cost of a job, so that no job is free
+constexpr Seconds kMinCost{1e-4};  // the minimum cost of a job, in seconds, so that no job is free
 
 // Each new measurement multiplies the weights of the earlier measurements by this factor.
 constexpr double kDecay = 0.75;
 // The weight of the prior `general` in EstimateCorrection::correctionFactor(): as much as that of measured jobs whose
 // estimated times add up to kPriorWeight.
 constexpr Seconds kPriorWeight{0.02};
-// Other programs sometimes delay a job. Therefore the measured time of a job is first reduced to at most kMaxOverrun
-// times the job's cost. Then a correction is learned from it.
+// Other programs sometimes delay a job. Therefore, before a correction is learned from the measured time of a job, this
+// time is reduced to at most kMaxOverrun times the job's cost.
 constexpr double kMaxOverrun = 2;
 constexpr double kMaxCorrection = 8;  // a correction multiplies or divides an estimate by at most this factor
 

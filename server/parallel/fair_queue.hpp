@@ -219,7 +219,7 @@ class FairQueue {
     bool longJobsMustWait(Clock::time_point now);
     void pruneRecentShortJobQueues(Clock::time_point now);
 
-    const std::size_t maxLongRunning_;  // the number of threads that are not reserved for short jobs
+    const std::size_t maxLongRunning_;  // the number of threads that are not reserved (see FairQueue)
     const Limits limits_;
     std::size_t waiting_ = 0, longRunning_ = 0;  // the numbers of waiting jobs and of running long jobs
     PerJobClass<JobClassScheduler> classes_;

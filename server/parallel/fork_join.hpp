@@ -48,7 +48,7 @@ class ForkJoin {
     std::condition_variable changed_;
     // The mutex mutex_ guards the next three members.
     const Job* job_ = nullptr;   // the job for the helper thread; null if there is none
-    std::exception_ptr thrown_;  // the exception of the helper thread's last job; null if it threw none
+    std::exception_ptr thrown_;  // the exception of the helper thread's last job; null if the job threw none
     bool ending_ = false;
     std::thread thread_;  // the helper thread; only the constructor assigns it, so reading it needs no lock
 };

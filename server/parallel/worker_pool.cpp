@@ -94,7 +94,7 @@ void WorkerPool::runWorker(std::size_t worker) {
             if (options_.forkJoin != nullptr) work.emplace(*options_.forkJoin);
             runJob(next->job, worker);
         }
-        next->job = nullptr;  // destroys what the job owns, while the mutex is not locked
+        next->job = nullptr;  // destroys what the job owns now, while the mutex is not locked
         const Seconds took = options_.now() - start;
         lock.lock();
         busyTime_ += took;

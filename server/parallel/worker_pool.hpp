@@ -22,9 +22,10 @@ class QueueFull : public std::runtime_error {
     QueueFull() : std::runtime_error("too many jobs are queued") {}
 };
 
-/// A pool of worker threads that run jobs in the order of a FairQueue (divides their time fairly among clients). Each
-/// job receives the index of its worker, from 0 to PoolOptions::threads − 1, so that it can use data that belong to the
-/// worker. Thread-safe. However, while stop() runs, neither size() nor stop() may be called.
+/// A pool of worker threads that run jobs in the order of a FairQueue, which divides the time of the threads fairly
+/// among clients. Each job receives the index of its worker, from 0 to PoolOptions::threads − 1, so that the job can
+/// use data that belong to the worker. Thread-safe. However, while stop() runs, neither size() nor stop() may be
+/// called.
 class WorkerPool {
   public:
     using JobArgument = std::size_t;  ///< the type of the argument of a job: the index of the worker
@@ -83,7 +84,7 @@ class WorkerPool {
     void waitForJobOrCleanUp(std::unique_lock<std::mutex>& lock, bool& used, std::size_t worker);
 
     const PoolOptions options_;
-    // The job queue for all jobs that are posted without a job queue.
+    // The job queue for all jobs that are posted with a null job queue.
     const JobQueuePtr common_ = std::make_shared<JobQueue>(std::make_shared<ClientFlow>());
     std::stop_source stopSource_;
     mutable std::mutex mutex_;

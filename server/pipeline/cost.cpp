@@ -76,8 +76,8 @@ double boxSeconds(const scene::PictureRequest& picture) {
     return 1e-4 + 1e-7 * n + 1e-7 * picture.planes.count * estimateElementsCut(n);
 }
 
-/// Returns the estimated time, in seconds, to find the surface of a field at a pixel, or the contours of the matrix.
-/// Returns 0 for other objects, and if faces are hidden.
+/// Returns the estimated time, in seconds, to find the surface of a field at a pixel and, in the matrix, the contours
+/// of the field. Returns 0 for other objects, and if faces are hidden.
 double rayCastingSeconds(const scene::PictureRequest& picture) {
     const fields::Field* field = slicing::fieldIn(picture.object);
     if (field == nullptr || !picture.look.parts.faces) return 0;

@@ -23,7 +23,7 @@ namespace oval4d::pipeline {
 namespace {
 
 // Returns the hyperplanes at the values of w in `at` (ExportRequest::chosenW). These values are coordinates in the
-// object's file, as in the labels of slices.
+// object's file, as in the labels of slices. Errors: `out_of_range` if a value is too far away or given twice.
 Result<geometry::Hyperplanes> hyperplanesAtW(const std::vector<double>& at, const scene::PictureRequest& picture) {
     const double origin = slicing::infoOf(picture.object).originInFile.w;
     const double reach = geometry::kMaxOffset * slicing::infoOf(picture.object).circumradius;
@@ -50,7 +50,7 @@ geometry::Hyperplanes hyperplanesDividingExtent(int count, const scene::PictureR
     const double larger = slicing::propertiesOf(picture.object).slicesAreThick ? 1 + 1e-9 : 1;
     const auto [least, most] = slicing::rangeOfW(picture.object, picture.orientation);
     const double shortest = geometry::kMinSpacing * slicing::infoOf(picture.object).circumradius;
-    // At least `shortest`, because a flat object may have no extent.
+    // The spacing is at least `shortest`, because an object may have no extent along w.
     const double spacing = std::max(larger * (most - least) / count, shortest);
     const double middle = (least + most) / 2;
     return {-(count - 1) / 2, count, spacing, count % 2 == 1 ? middle : middle - spacing / 2};
@@ -179,7 +179,7 @@ Result<exports::ExportedFile> exportFile(const scene::PictureRequest& picture, c
     look.coloring = picture.look.coloring;
     look.parts.coordinates = false;  // the code in export/drawing/ lays out the parallel coordinates itself
     look.field = picture.look.field;
-    // Show the surfaces of fields, but do not fill the faces of other objects.
+    // A file that does not look like the picture shows the surfaces of fields, but no filled faces of other objects.
     if (!hasOwnLook) look.parts.faces = isField;
     scene::Scene scene;
     scene::Composer composer;

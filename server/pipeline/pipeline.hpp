@@ -40,9 +40,9 @@ struct PictureWorkLimits {
     std::size_t occlusionSteps = slicing::OcclusionFinder::kDefaultSteps;
 };
 
-/// Makes from the description of a picture what a client displays: a `slices` message (picture → slices → scene →
-/// message) or a PNG file (picture → pixels → file). Used by the server and the command line. Keeps its memory between
-/// calls. Only one thread at a time may use a pipeline.
+/// Makes what a client displays from a scene::PictureRequest, the description of a picture: a `slices` message (picture
+/// → slices → scene → message) or a PNG file (picture → pixels → file). Used by the server and the command line. Keeps
+/// its memory between calls. Only one thread at a time may use a pipeline.
 class Pipeline {
   public:
     /// `rasterizer` draws the pictures. If `forkJoin` is not null, large objects and pictures are processed on two
@@ -58,7 +58,7 @@ class Pipeline {
     /// without finding them again.
     slicing::NamedSection nameFocusSection(const scene::PictureRequest& picture,
                                            const slicing::SliceSet* slices = nullptr);
-    /// Gives the pipeline the names of a section, so that later calls need not find them.
+    /// Gives the pipeline the names of a section, so that later calls need not find these names.
     void reuseFocusSectionNames(const slicing::NamedSection& section);
 
     /// Slices the object of the picture, and writes the slices to `out`. Overwrites `out` and reuses its memory. Throws

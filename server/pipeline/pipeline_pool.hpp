@@ -11,8 +11,8 @@
 
 namespace oval4d::pipeline {
 
-/// A pool of worker threads, each with its own Pipeline (makes messages and pictures). A job receives the pipeline of
-/// the worker that runs the job. Thread-safe.
+/// A pool of worker threads, each with its own Pipeline, which makes messages and pictures. A job receives the pipeline
+/// of the worker that runs the job. Thread-safe.
 class PipelinePool {
   public:
     using JobArgument = Pipeline&;  ///< the type of the parameter of a job

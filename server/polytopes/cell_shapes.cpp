@@ -118,8 +118,8 @@ std::vector<double> radiiOf(const Polytope& p, const ElementTally& tally) {
     return radii;
 }
 
-// Returns whether two 2-faces of a cell may be the bases of an antiprism: they must have no vertex in common, all their
-// edges must be equally long, and all other edges of the cell must be equally long.
+// Returns whether two 2-faces of a cell may be the bases of an antiprism. The 2-faces must have no vertex in common.
+// All edges of both 2-faces must be equally long, and so must all other edges of the cell.
 bool mayBeAntiprismBases(const Polytope& p, std::uint32_t cell, std::uint32_t base, std::uint32_t otherBase) {
     const std::set<std::uint32_t> corners(p.faces[base].begin(), p.faces[base].end());
     const auto isCorner = [&](std::uint32_t v) { return corners.contains(v); };
@@ -158,9 +158,9 @@ std::string antiprismName(const Polytope& p, std::uint32_t cell, const ElementTa
     return {};
 }
 
-// Returns the name of a cell if it is a bipyramid or a trapezohedron, else an empty string. Decides this by
-// `faces`, the number of 2-faces of the cell, and by its `tally` alone. Bipyramids and trapezohedra have two
-// apexes; their other vertices lie around the axis through the apexes.
+// Returns the name of a cell if it is a bipyramid or a trapezohedron, else an empty string. `faces` is the number of
+// 2-faces of the cell. Only this number and `tally` decide, not the positions of the vertices. Bipyramids and
+// trapezohedra have two apexes; their other vertices lie around the axis through the apexes.
 std::string twoApexName(std::uint32_t faces, const ElementTally& tally) {
     const std::uint32_t n = faces / 2;
     const auto vertices = static_cast<std::uint32_t>(tally.degrees.size());
@@ -175,8 +175,8 @@ std::string twoApexName(std::uint32_t faces, const ElementTally& tally) {
 }
 
 // Returns whether the cell has the shape of the solid: whether the distances of the cell's vertices from their mean
-// have the same ratios as the distances of the solid's vertices from its center. The caller has compared the
-// numbers of elements, which other polyhedra may share with a Catalan solid.
+// have the same ratios as the distances of the solid's vertices from its center. The caller must have compared the
+// numbers of faces and vertices; these numbers alone do not identify a solid.
 bool hasRadiiOf(const Solid& solid, const Polytope& p, const ElementTally& tally) {
     const SolidMesh mesh = meshOf(solid);
     std::vector<double> known, own = radiiOf(p, tally);

@@ -14,8 +14,9 @@ namespace oval4d::polytopes {
 /// relative tolerance of 1 %.
 ///
 /// A cuboid must have six rectangles, and a prism must have rectangles as lateral faces. An antiprism must have regular
-/// bases and equally long lateral edges. The distances of a Catalan solid's vertices from their mean must have the
-/// right ratios. A base of four sides is called square, rhombic, rectangular or quadrilateral.
+/// bases and equally long lateral edges. In a Catalan solid, the distances of the vertices from their mean must have
+/// the same ratios as in the solid with this name. The adjective for a base of four sides is "square", "rhombic",
+/// "rectangular" or "quadrilateral".
 std::string nameOfIrregularCell(const Polytope& polytope, std::uint32_t cell);
 
 }  // namespace oval4d::polytopes

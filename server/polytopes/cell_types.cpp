@@ -18,7 +18,8 @@ namespace {
 
 // The tolerance when lengths in two cells are compared, in units of maxDistanceFromMean() of the polytope.
 constexpr double kCongruenceTolerance = 1.0 / 500;
-constexpr double kRegularityTolerance = 0.01;  // for lengths in the same cell, relative to the greatest of them
+constexpr double kRegularityTolerance = 0.01;  // the tolerance when lengths in the same cell are compared, relative to
+                                               // the greatest of these lengths
 
 // The least, the root-mean-square and the greatest of the lengths that were added.
 struct LengthStatistics {
@@ -45,9 +46,9 @@ struct CellInvariants {
     }
 };
 
-// Measures cells. Measuring all cells of a polytope takes time linear in its size: for each cell, measure() marks the
-// vertices that it visits with a number that is different for each cell. Therefore the mark of a vertex shows, without
-// a search, whether the vertex has already been visited in the current cell.
+// Measures cells. Measuring all cells takes time linear in the size of the polytope: measure() marks each vertex that
+// it visits with a number, which is different for each cell. So the mark of a vertex shows, without a search, whether
+// the current cell has already visited the vertex.
 class CellMeasurer {
   public:
     explicit CellMeasurer(const Polytope& polytope) : p_(polytope), markOf_(polytope.vertices.size(), 0) {}

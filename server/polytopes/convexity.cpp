@@ -80,7 +80,8 @@ class ConvexityTest {
         glm::dvec4 foot = points_.front();
         for (glm::dvec4& point : points_) point -= foot;
         for (; dimension > 0; --dimension) {
-            // Remove the component along the direction of the farthest point from all other points.
+            // Take the direction of the longest vector in points_, and remove the components in this direction from all
+            // vectors in points_ and from the foot.
             const glm::dvec4 far = *std::max_element(
                 points_.begin(), points_.end(),
                 [](const glm::dvec4& a, const glm::dvec4& b) { return glm::dot(a, a) < glm::dot(b, b); });

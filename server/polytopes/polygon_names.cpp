@@ -30,7 +30,7 @@ class PolygonLengths {
         }
         if (side > 2 * radius) return 0;
         // In a circle of this radius, a side of {n/d} is a chord over the angle 2π d/n. The diagonal that skips one
-        // corner is a chord over twice this angle. In a skew polygon, these two lengths contradict each other.
+        // corner is a chord over twice this angle. In a polygon that is not flat, no d gives both lengths.
         const double half = std::asin(side / (2 * radius));
         const int sides = static_cast<int>(n), d = static_cast<int>(std::lround(sides * half / std::numbers::pi));
         const double exact = std::numbers::pi * d / sides;

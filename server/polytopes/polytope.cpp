@@ -30,7 +30,7 @@ std::string nameOf(FaultLocation part, std::size_t index) {
     return (part == FaultLocation::face ? "2-face " : "cell ") + std::to_string(index) + ' ';
 }
 
-// Throws InvalidPolytope if a vertex follows itself in the loop of a 2-face.
+// Throws InvalidPolytope if two consecutive vertices of a 2-face's loop are equal, or its last and its first vertex.
 void checkLoops(const geometry::JaggedArray& faces) {
     for (std::size_t f = 0; f < faces.size(); ++f) {
         const auto loop = faces[f];
@@ -187,11 +187,11 @@ class BoundaryOrienter {
         }
     }
 
-    // Returns 24 times the signed hypervolume of the cone over the cell. The apex, `tip`, is a vertex of the
-    // polytope: with the origin as the apex, rounding errors would dominate if the polytope is far from the origin.
-    // The result is the sum of sign · det(v, a, b, c) over all triangles (a, b, c) of the 2-faces, each divided as
-    // a fan. `sign` is the sign of the 2-face in the cell, and v is a fixed vertex of the cell; v, a, b and c are
-    // relative to `tip`.
+    // Returns 24 times the signed hypervolume of the cone over the cell. The apex, `tip`, is a vertex of the polytope.
+    // If the apex were the origin, rounding errors would dominate for a polytope that is far from the origin. The
+    // result is the sum of sign · det(v, a, b, c) over all triangles (a, b, c) of the 2-faces, each divided as a fan.
+    // `sign` is the sign of the 2-face in the cell, and v is a fixed vertex of the cell; v, a, b and c are relative to
+    // `tip`.
     double scaledConeVolume(std::uint32_t cell) const {
         double sum = 0;
         const glm::dvec4 tip = p_.vertices[p_.faces.items[0]];
@@ -244,7 +244,7 @@ void findFacesAtEdges(Polytope& p) {
         }
     }
     std::vector<std::uint32_t> sideAfterCell(
-        p.cells.size());  // for each cell, the index in `sides` of the 2-face that comes next after the cell
+        p.cells.size());  // for each cell at the edge e below, the index in `sides` of the 2-face that follows the cell
     for (std::size_t e = 0; e < p.edges.size(); ++e) {
         const auto sides = std::span(items).subspan(begin[e], begin[e + 1] - begin[e]);
         const auto cellBefore = [&](std::uint32_t side) { return p.faceCells[side >> 1U][side & 1U]; };

@@ -38,21 +38,22 @@ void visitStoredMembers(serialization::ReadOrWritten<Polytope> auto& polytope, a
     visit.recomputableMember(polytope.edgeFaces);
 }
 
-/// Returns the largest distance of a vertex from the mean of the vertices. Unlike the circumradius, it is independent
-/// of the position of the polytope.
+/// Returns the largest distance of a vertex from the mean of the vertices. Unlike the circumradius, this distance does
+/// not depend on the position of the polytope.
 double maxDistanceFromMean(const Polytope& polytope);
 
 /// Thrown by makePolytope() for elements that do not form a valid polytope. Says which element is invalid.
 class InvalidPolytope : public std::invalid_argument {
   public:
-    enum class FaultLocation : std::uint8_t { whole, face, cell };  ///< the whole polytope, a 2-face or a cell
+    /// What is invalid: the whole polytope, a 2-face or a cell.
+    enum class FaultLocation : std::uint8_t { whole, face, cell };
 
     /// `number` is the index of the invalid 2-face or cell; 0 for the whole polytope. `fault` says what is wrong
     /// without naming the element, such as "does not lie in two cells". what() returns both, as in "2-face 7 does
     /// not lie in two cells".
     InvalidPolytope(FaultLocation element, std::size_t number, const std::string& fault);
 
-    FaultLocation part;  ///< the part of the polytope that is invalid
+    FaultLocation part;  ///< the kind of element that is invalid
     std::size_t index;   ///< the index of the 2-face or cell; 0 for the whole polytope
     std::string detail;  ///< what is wrong, without the name of the element
 };

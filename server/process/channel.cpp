@@ -20,7 +20,7 @@ struct MessageHeader {
     std::uint64_t size;
 };
 
-// Memory for the ancillary data of a message on a Unix socket (see unix(7)), which carries one file descriptor.
+// Memory for the ancillary data with which a message on a Unix socket carries one file descriptor (see unix(7)).
 struct alignas(cmsghdr) AncillaryData {
     char bytes[CMSG_SPACE(sizeof(int))];
 };
@@ -28,8 +28,8 @@ struct alignas(cmsghdr) AncillaryData {
 // The interval at which waitFor() checks whether a stop was requested.
 constexpr std::chrono::milliseconds kStopCheckInterval{100};
 
-/// Waits until `event`, an event of poll(2), happens at the socket. Returns false if the time limit is reached, or a
-/// stop is requested, first.
+/// Waits until `event`, an event of poll(2), happens at the socket. Returns false if, before this, the time limit is
+/// reached or a stop is requested.
 bool waitFor(int socket, short event, const WaitLimit& limit) {
     using std::chrono::milliseconds;
     const milliseconds longest =
@@ -42,7 +42,8 @@ bool waitFor(int socket, short event, const WaitLimit& limit) {
 }
 
 /// Calls `call`, a nonblocking system call that sends or receives, until it succeeds. Waits for `event` whenever the
-/// call would block. Sets `moved` to the number of bytes that were sent or received.
+/// call would block. On success, sets `moved` to the number of bytes that were sent or received. Otherwise returns why
+/// it stopped (see TransferResult).
 template <typename Call>
 TransferResult transferSome(int socket, short event, const WaitLimit& limit, std::size_t& moved, Call call) {
     for (;;) {

@@ -18,9 +18,9 @@ namespace oval4d::process {
 ///   `file_descriptor` for each mapped file of the object, and finally `object`.
 /// - To a file reader process (which parses files of clients), the server sends `file`, followed by a
 ///   `file_descriptor` for each file of a series. The process answers `outcome`. Before the answer, the process may
-///   ask for files with `new_file` and `find_file`. The server answers with `file_descriptor`, which carries no
-///   descriptor if there is no such file. If the file cannot be opened on this machine, the server answers `find_file`
-///   with `file_bytes`.
+///   ask for files with `new_file` and `find_file`. The server answers each of them with `file_descriptor`, which
+///   carries no descriptor if there is no such file. If the file cannot be opened on this machine, the server instead
+///   answers `find_file` with `file_bytes`.
 enum class MessageType : std::uint32_t {
     ready,           ///< empty body
     draw,            ///< raster::DrawRequest; carries the file descriptor of the SharedPixels to draw to
@@ -30,7 +30,7 @@ enum class MessageType : std::uint32_t {
     failed,          ///< the reason for the failure, as text
     file,  ///< the command to read a file (file_reading::FileReadRequest); may carry the file descriptor of the
            ///< file
-    /// Empty. Carries the descriptor of a mapped file, a new file, or a file of a series or folder.
+    /// Empty body. Carries the descriptor of a mapped file, of a new file, or of a file of a series or folder.
     file_descriptor,
     new_file,    ///< the size in bytes of a new file that the process needs, as std::size_t
     find_file,   ///< the wanted file, encoded by file_reading::encodeFindRequest()

@@ -28,8 +28,8 @@ using Clock = WaitLimit::Clock;
 // The maximum size, in bytes, of the reason for which a child process failed (the body of MessageType::failed).
 constexpr std::size_t kMaxReason = 64U << 10U;
 
-/// The environment variables of a child process: those of this process, without the variables OVAL4D_… except
-/// OVAL4D_FONT, followed by those variables in `added` whose names are not present yet.
+/// The environment variables of a child process. First come the variables of this process; of those whose names begin
+/// with OVAL4D_, only OVAL4D_FONT. Then come the variables in `added` whose names have not occurred yet.
 class ChildEnvironment {
   public:
     explicit ChildEnvironment(const std::vector<std::string>& added) {
@@ -56,7 +56,8 @@ class ChildEnvironment {
 }
 
 // The time in which a process must exit after its channel was closed; after this time, the process is killed. The
-// server then waits at most the same time for its end, because a debugger, for example, may delay it.
+// server then waits at most the same time for the killed process to exit, because a debugger, for example, may delay
+// the exit.
 constexpr auto kExitTimeout = 1s;
 
 /// Waits until a process has exited, and sets `status` as waitpid(2) does. Returns false if the process is still
@@ -147,8 +148,8 @@ void ChildProcess::converseWithRetry(const ConversationFunction& conversation, c
         auto transfer = TransferResult::complete;
         bool talked = false;
         try {
-            // `talked` stays false if the process hangs while it starts, because the conversation is then not the
-            // cause.
+            // If the process hangs while it starts, `talked` stays false: the conversation is not the cause, and is
+            // repeated.
             if (!ready_) awaitReadyMessage(transfer, waitLimit(stop));
             talked = ready_;
             if (talked) transfer = conversation(*channel_, waitLimit(stop));

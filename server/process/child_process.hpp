@@ -1,5 +1,5 @@
 #pragma once
-// Child processes that do risky work for the server, which survives if they crash or hang.
+// Child processes that do risky work for the server. The server survives if a child process crashes or hangs.
 
 #include <sys/types.h>
 
@@ -41,8 +41,8 @@ struct ChildOptions {
     int niceness = 0;                                ///< scheduling priority of the child: 0 (normal) to 19 (lowest)
 };
 
-/// An error: a conversation failed because the child process was lost, and either the process that replaced it was
-/// lost, too, or the conversation was not repeated (see hung()).
+/// The error of a conversation that failed because the child process was lost. Either the process that replaced it was
+/// lost, too, or the conversation was not repeated (see hasHung()).
 class ProcessLostError : public std::runtime_error {
   public:
     ProcessLostError(const std::string& fault, bool hung) : std::runtime_error(fault), hung_(hung) {}
@@ -56,8 +56,9 @@ class ProcessLostError : public std::runtime_error {
 
 /// A child process that runs this program. The process is started on demand, and replaced by a new process if it is
 /// lost. It ends when this object is destroyed or the server ends. The only file descriptor that the process inherits
-/// is standard error (the log). The process inherits the server's environment variables, except those named OVAL4D_…,
-/// which may hold secrets. OVAL4D_FONT is inherited. Not thread-safe: only one thread at a time may use an object.
+/// is standard error (the log). The process inherits the server's environment variables, except those whose names begin
+/// with OVAL4D_, which may hold secrets. Of these, only OVAL4D_FONT is inherited. Not thread-safe: only one thread at a
+/// time may use an object.
 class ChildProcess {
   public:
     /// A function that sends messages to the process and receives the replies, within the given WaitLimit. Returns the
@@ -74,8 +75,8 @@ class ChildProcess {
     void start();
 
     /// Calls `conversation` when the process is ready; starts the process if necessary. If the process is lost, starts
-    /// a new process and repeats the conversation once. However, if the process hung during `conversation` and
-    /// ChildOptions::repeatAfterHang is false, does not repeat it. Throws:
+    /// a new process and repeats the conversation once. However, does not repeat the conversation if the process hung
+    /// during `conversation` and ChildOptions::repeatAfterHang is false. Throws:
     /// - Canceled if a stop is requested;
     /// - ProcessLostError if the new process is lost, too, or if the conversation is not repeated;
     /// - std::runtime_error if the process cannot be started, or reports that its start has failed;

@@ -18,8 +18,8 @@ constexpr int kTrimThreshold = 2 * kMapThreshold;
 ProcessHeap::ProcessHeap() {
     mallopt(M_MMAP_THRESHOLD, kMapThreshold);
     mallopt(M_TRIM_THRESHOLD, kTrimThreshold);
-    // In a build with a sanitizer, mallopt() does not reach glibc's allocator, so malloc_trim() initializes it at its
-    // first call. Several threads must not do so at once, so call malloc_trim() here.
+    // In a build with a sanitizer, mallopt() does not reach glibc's allocator, so the first call of malloc_trim()
+    // initializes the allocator. Several threads must not do this at once. So make the first call here.
     malloc_trim(0);
 }
 

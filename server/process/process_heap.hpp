@@ -2,8 +2,8 @@
 
 namespace oval4d::process {
 
-/// The heap of this process, which the allocator of glibc manages. The constructor configures the allocator. So main()
-/// must construct the only object before the program allocates much memory.
+/// The heap of this process, which the allocator of glibc manages. The constructor configures the allocator. Therefore
+/// main() must construct the only object of this class before the program allocates much memory.
 class ProcessHeap {
   public:
     ProcessHeap();

@@ -78,7 +78,7 @@ constexpr auto kCommonCalls = std::to_array<const char*>({"brk",
                                                           "times",
                                                           "uname"});
 
-// The system calls that Mesa (the graphics library) makes in its threads. Most of them get or set the processor
+// The system calls that Mesa (the graphics library) makes in its threads. All except arch_prctl concern the processor
 // affinity or the priority of a thread.
 constexpr auto kThreadCalls = std::to_array<const char*>(
     {"arch_prctl", "getpriority", "sched_get_priority_max", "sched_get_priority_min", "sched_getparam",
@@ -207,13 +207,13 @@ void filterSystemCalls(SandboxRole role) {
     const auto own = static_cast<std::uint64_t>(getpid());
     for (const char* name : {"kill", "tgkill"}) filter.addRule(SCMP_ACT_ALLOW, name, {argumentIs(0, own)});
     filter.addRule(SCMP_ACT_ALLOW, "fcntl", {argumentIs(1, F_GETFL)});
-    // Allow reading the limits of the process, but not changing them: the argument for new limits must be null.
+    // Allow the process to read its limits, but not to change them: the argument for new limits must be null.
     filter.addRule(SCMP_ACT_ALLOW, "prlimit64", {argumentIs(0, 0), argumentIs(2, 0)});
     // A filter cannot inspect the arguments of clone3, because they are in memory. Fail with ENOSYS, so that the C
     // library uses clone.
     filter.addRule(SCMP_ACT_ERRNO(ENOSYS), "clone3", {});
-    // Forbid mmap with both of these flags. Together, they request shared memory without a file, which would not count
-    // toward the memory limit.
+    // Forbid mmap with both of these flags: the rules below allow mmap if at least one of the flags is not set.
+    // Together, the flags request shared memory without a file, which would not count toward the memory limit.
     constexpr auto kNotTogether = std::to_array<std::uint64_t>({MAP_SHARED, MAP_ANONYMOUS});
     if (role == SandboxRole::draw) {
         for (const char* name : {"mprotect", "mremap"}) filter.addRule(SCMP_ACT_ALLOW, name, {});

@@ -20,8 +20,8 @@ enum class SandboxMode : std::uint8_t {
 };
 
 /// Returns whether child processes are to have a filter of system calls. Returns false if `wanted` is `off`. Otherwise,
-/// tries to set a filter for a temporary thread, and returns whether this succeeds. On failure, sets `why` to the
-/// reason; if `wanted` is `required`, throws std::runtime_error. Builds with a sanitizer have no sandbox, because
+/// tries to set a filter for a temporary thread, and returns whether this succeeds. If it fails, sets `why` to the
+/// reason and, if `wanted` is `required`, throws std::runtime_error. Builds with a sanitizer have no sandbox, because
 /// sanitizers need more system calls.
 bool shouldSandbox(SandboxMode wanted, std::string& why);
 

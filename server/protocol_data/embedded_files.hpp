@@ -1,6 +1,5 @@
 #pragma once
-// The data files of protocol/ (keymap.json, errors.json, fields.json, export_formats.json, schema/*.json), compiled
-// into the program.
+// The JSON files of protocol/ (such as keymap.json) and the schemas in protocol/schema/, compiled into the program.
 
 #include <span>
 #include <string_view>

@@ -47,10 +47,10 @@ class LocalRasterizer : public Rasterizer {
     /// If `forkJoin` is not null, the rasterizer slices and draws on two cores. `forkJoin` must outlive this object.
     explicit LocalRasterizer(parallel::ForkJoin* forkJoin = nullptr) : forkJoin_(forkJoin), workspace_(forkJoin) {}
 
-    /// Limits the time for filling self-intersecting faces in each picture to `steps` steps (see
+    /// Sets the maximum number of steps in which the self-intersecting faces of one picture are filled (see
     /// slicing::FaceFiller::fill()).
     void limitFaceFilling(std::size_t steps) { fillSteps_ = steps; }
-    /// Limits the time for finding which elements lie behind other cells in each picture to `steps` steps (see
+    /// Sets the maximum number of steps of the search, in one picture, for elements that lie behind other cells (see
     /// slicing::OcclusionFinder::findDrawnElements()).
     void limitOcclusion(std::size_t steps) { occlusionSteps_ = steps; }
 

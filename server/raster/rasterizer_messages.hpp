@@ -11,12 +11,15 @@
 
 namespace oval4d::raster {
 
-/// Limits on the work and memory of a rasterizer process (draws pictures for the server).
+/// Limits on the work and the memory of a rasterizer process, which draws pictures for the server.
 struct RasterizerLimits {
-    std::size_t fillSteps = 0;  ///< the maximum number of steps in one picture (see slicing::FaceFiller::fill())
-    /// The maximum size of the cache of objects, in bytes; the latest object may exceed it.
+    std::size_t fillSteps = 0;  ///< the maximum number of steps for filling faces in one picture (see
+                                ///< slicing::FaceFiller::fill())
+    /// The maximum size of the process's cache of objects, in bytes; the object drawn last stays in the cache even if
+    /// it is larger.
     std::size_t objectBytes = 0;
-    /// The maximum number of steps in one picture (see slicing::OcclusionFinder::findDrawnElements()).
+    /// The maximum number of steps for finding hidden elements in one picture (see
+    /// slicing::OcclusionFinder::findDrawnElements()).
     std::size_t occlusionSteps = slicing::OcclusionFinder::kDefaultSteps;
 };
 
@@ -34,8 +37,9 @@ struct DrawRequest {
 
 /// Encodes a request to draw `picture` within `limits`. Overwrites `out`.
 void encodeRequest(const scene::PictureRequest& picture, const RasterizerLimits& limits, std::string& out);
-/// Decodes a draw request from the bytes that encodeRequest() wrote. Overwrites the members of `out` that are sent.
-/// Throws std::runtime_error if bytes are missing or damaged, or if the orientation is not a rotation.
+/// Decodes a draw request from the bytes that encodeRequest() wrote. Overwrites the members of `out`, except the
+/// objects in `out.picture`, which are not sent. Throws std::runtime_error if bytes are missing or damaged, or if the
+/// orientation is not a rotation.
 void decodeRequest(std::string_view bytes, DrawRequest& out);
 
 }  // namespace oval4d::raster

@@ -19,8 +19,8 @@ namespace oval4d::raster {
 /// The options of rasterizer processes.
 struct RasterizerOptions {
     RasterizerLimits limits;
-    /// The maximum time in which a rasterizer process must start, and in which it must draw a picture. A process that
-    /// takes longer is killed and counts as lost.
+    /// The maximum time for the start of a rasterizer process, and for each picture that it draws. A process that takes
+    /// longer is killed and counts as lost.
     std::chrono::duration<double> timeout;
     /// Called when a process is lost, on the thread that waits for an answer of the process.
     std::function<void(const process::ProcessLoss&)> onLoss;
@@ -34,8 +34,8 @@ struct RasterizerOptions {
 /// replaces it and repeats the task.
 ///
 /// Only one thread at a time may use this object. warmUp() and draw() throw process::Canceled if a stop is requested
-/// through `stop`, process::ProcessLostError if the replacement is lost, too, and std::runtime_error if a process
-/// cannot be started or reports an error.
+/// through `stop`, and process::ProcessLostError if the replacement is lost, too. They throw std::runtime_error if a
+/// process cannot be started or reports an error.
 class RasterizerProcess {
   public:
     /// `threads` is the number of threads that llvmpipe (the software rasterizer) starts. If it is 0, the main thread

@@ -103,7 +103,7 @@ class RasterizerService {
         if (channel_.receive(type, body_, &file) != TransferResult::complete) return false;
         if (type == MessageType::file_descriptor) takeFile(file);
         if (type != MessageType::draw) return true;
-        // If this process has too many files open, the kernel drops the descriptor, so it is missing.
+        // The descriptor is missing if the kernel has dropped it because this process has too many files open.
         if (file == Channel::kNoFile)
             throw std::runtime_error("a draw request arrived without the memory to draw into");
         auto pixels = std::make_unique<SharedPixels>(file);
@@ -113,7 +113,7 @@ class RasterizerService {
     }
 
     void takeFile(int descriptor) {
-        // Closed at the end of this function: a mapping does not need its descriptor.
+        // `file` closes the descriptor at the end of this function, because a mapping does not need its descriptor.
         const fields::FileHandle file(descriptor);
         auto mapped = fields::MappedFile::map(file.descriptor());
         mapped_.push_back(mapped ? std::move(*mapped) : nullptr);  // if mapping the file fails, the entry is null
@@ -151,7 +151,7 @@ class RasterizerService {
     process::ProcessHeap& heap_;
     RecentObjectCache recent_;
     DrawRequest request_;
-    // By the inode of the file; one for each worker of the server.
+    // The shared memory of each worker of the server. The key is the inode of the memory file.
     std::map<std::uint64_t, std::unique_ptr<SharedPixels>> pixelFiles_;
     std::uint64_t currentFile_ = 0;  // the inode of the file into which the next picture is drawn
     slicing::MappedFiles mapped_;    // the files to which the next object refers

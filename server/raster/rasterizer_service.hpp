@@ -6,7 +6,7 @@
 
 namespace oval4d::raster {
 
-/// The subcommand with which this program runs as a rasterizer process (draws pictures for the server).
+/// The subcommand with which this program runs as a rasterizer process, which draws pictures for the server.
 inline constexpr const char* kRasterizerCommand = "draw";
 
 /// Runs a rasterizer process. Loads everything that drawing needs, confines the process to a sandbox, and draws the

@@ -20,6 +20,7 @@ class SharedPixels {
     SharedPixels(const SharedPixels&) = delete;
     SharedPixels& operator=(const SharedPixels&) = delete;
 
+    /// Makes room for `size` bytes: enlarges the memory file if it is smaller, and shrinks it if it is much larger.
     /// Returns the first `size` bytes, which are valid until the next call of resize() or remapIfResized(). Throws
     /// std::system_error if the file cannot be resized or mapped.
     std::span<std::uint8_t> resize(std::size_t size);

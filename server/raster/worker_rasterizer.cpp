@@ -16,7 +16,8 @@ using Clock = std::chrono::steady_clock;
 constexpr auto kCrowded = 100ms;
 // If drawing the last picture took more than this number of seconds, the next picture is expected to be large.
 constexpr double kLarge = 0.004;
-// With more threads, llvmpipe's threads would wait for the thread that gives them work.
+// The maximum number of threads of the shared process. With more, llvmpipe's threads would wait for the thread that
+// gives them work.
 constexpr std::size_t kMostThreads = 8;
 
 }  // namespace

@@ -19,8 +19,9 @@ namespace oval4d::raster {
 /// - the previous picture of any worker was large: drawing it took more than 4 ms;
 /// - no other picture is being drawn or queued;
 /// - no two pictures were drawn or queued at the same time in the last 100 ms.
-/// Otherwise, the worker uses its own single-threaded process. Concurrent pictures are drawn with a higher throughput
-/// if they do not compete for threads. For a small picture, waking threads would take longer than drawing. Thread-safe.
+/// Otherwise, the worker uses its own single-threaded process, for two reasons. More pictures per second are drawn if
+/// concurrent pictures do not compete for threads. And for a small picture, waking threads would take longer than
+/// drawing. Thread-safe.
 class SharedRasterizerProcess {
   public:
     /// `cores` is the number of processor cores; on a single core, there is no shared process. `morePicturesQueued`

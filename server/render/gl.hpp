@@ -1,8 +1,8 @@
 #pragma once
-// The functions of OpenGL and OSMesa (draws OpenGL into memory) that the renderer calls, as pointers. The first
-// OffscreenGlContext loads the OSMesa library and sets the pointers. The program is not linked with this library,
-// because most processes draw nothing. Loading the library takes several times as long as starting the rest of the
-// program, because the library also loads LLVM, which compiles shaders.
+// Pointers to the functions that the renderer calls: those of OpenGL, and those of OSMesa, which draws OpenGL into
+// memory. The first OffscreenGlContext loads the OSMesa library and sets the pointers. The program is not linked with
+// this library, because most processes draw nothing. Loading the library takes several times as long as starting the
+// rest of the program, because the library also loads LLVM, which compiles shaders.
 
 #define GL_GLEXT_PROTOTYPES
 #include <GL/gl.h>

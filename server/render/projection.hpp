@@ -14,7 +14,8 @@ namespace oval4d::render {
 struct ViewProjection {
     float width = 1, height = 1;   ///< the size of the picture in pixels
     float scaleX = 1, scaleY = 1;  ///< the cotangents of half the horizontal and half the vertical field of view
-    /// The place where the view axis meets the picture: 0 is the center of the picture, ±1 are its edges.
+    /// The place where the view axis meets the picture: 0 is the center of the picture, −1 its left or lower edge, and
+    /// 1 its right or upper edge.
     float shiftX = 0, shiftY = 0;
 
     /// Makes the projection of `camera` for pictures with the size of `viewport`.

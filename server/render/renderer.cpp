@@ -43,19 +43,20 @@ namespace {
 constexpr std::size_t kBatchPatches = 2'000;
 
 // If a projection has fewer shapes than this, the thread that prepares the slices also prepares the projection. Waking
-// another thread would take about as long.
+// another thread would take about as long as preparing it.
 constexpr std::size_t kFewShapes = 500;
 
 /// Returns a lock that every use of Mesa must hold, because all contexts of a process share state. A context that draws
-/// reads the llvmpipe scenes of the other contexts (llvmpipe_is_resource_referenced). In Mesa 22.3, another thread may
-/// free these scenes at the same time.
+/// reads data of the other contexts: the scenes of llvmpipe, Mesa's rasterizer (see llvmpipe_is_resource_referenced in
+/// Mesa). In Mesa 22.3, another thread may free these scenes at the same time.
 std::unique_lock<std::mutex> lockDriver() {
     static std::mutex driver;
     return std::unique_lock(driver);
 }
 
 /// Returns whether several threads may draw a picture. The environment variable LP_NUM_THREADS sets the number of
-/// threads of llvmpipe. If it is 0 or 1, a second thread for drawing without OpenGL is forbidden, too.
+/// threads of llvmpipe, Mesa's rasterizer. If it is 0 or 1, a second thread for drawing without OpenGL is forbidden,
+/// too.
 bool mayUseThreads() {
     const char* threads = std::getenv("LP_NUM_THREADS");
     return threads == nullptr || std::atoi(threads) > 1;
@@ -136,7 +137,7 @@ struct Renderer::Impl {
     };
 
     parallel::ThreadOwnerAssertion owner;
-    OffscreenGlContext context;          // declared first, because the members that follow need a current context
+    OffscreenGlContext context;          // declared before the members that need a current context
     const bool shapesInMemory;           // whether shapes are drawn without OpenGL where this is possible
     parallel::ForkJoin* const forkJoin;  // null if only one thread draws pictures
     ShapeRasterizer shapeRasterizer;
@@ -144,7 +145,7 @@ struct Renderer::Impl {
     SurfaceProgram surfaceProgram;
     ParallelCoordinatesPlot coordinatesPlot;
     Overlay overlay;
-    ShapeBatch shapes, strokes;  // `strokes` are drawn over everything else, without OpenGL
+    ShapeBatch shapes, strokes;  // `strokes` is drawn over everything else, without OpenGL
     ConvexShapeCollector convexCollector;
     NonconvexShapeCollector nonconvexCollector;
     NonconvexShapeCollector::Layers layers;
@@ -163,8 +164,9 @@ void Renderer::Impl::flushShapes() {
     shapes.clear();
 }
 
-// Returns a part of the picture that contains the projection of the whole object, which must have been collected. If
-// the projection is small, clearing the whole depth buffer would take longer than drawing the projection.
+// Returns the part of the picture in which the depth buffer must be cleared for the projection of the whole object,
+// which must have been collected. If the projection is small, clearing the whole depth buffer would take longer than
+// drawing the projection.
 PixelArea Renderer::Impl::depthAreaOfProjection(const scene::Scene& scene) const {
     if (scene.projection.focusSurface) return {{0, 0}, {scene.viewport.width, scene.viewport.height}};
     return projectionLayers.pixelArea(scene.viewport);
@@ -177,8 +179,8 @@ void Renderer::Impl::prepareProjection(const scene::Scene& scene) {
 }
 
 // Adds the projection of the whole object, which must have been prepared, to the rasterizer. The projection must never
-// hide a slice. Therefore shapes that are added later must not be tested against the depths of the projection: the
-// caller must first add a clearing of the depth buffer, or must use DepthUse::unused.
+// hide a slice. Therefore shapes that are added later must not be tested against the depths of the projection. Before
+// the caller adds such shapes, it must add a clearing of the depth buffer, or it must add them with DepthUse::unused.
 void Renderer::Impl::addProjection() {
     using DepthUse = ShapeRasterizer::DepthUse;
     using Blending = SurfaceRasterizer::Blending;

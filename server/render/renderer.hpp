@@ -19,7 +19,7 @@ namespace oval4d::render {
 std::string fontFile();
 
 /// The way in which the slices, the projection of the whole object and the axes symbol are drawn. In pictures with fog,
-/// or narrower than ShapeRasterizer::kMinWidth, they are always drawn with OpenGL.
+/// and in pictures narrower than ShapeRasterizer::kMinWidth, they are always drawn with OpenGL.
 enum class ShapeBackend : std::uint8_t {
     fastest,  ///< draw with a ShapeRasterizer if this processor has AVX2 and FMA, else with OpenGL
     open_gl,  ///< always draw with OpenGL
@@ -32,9 +32,9 @@ class Renderer {
   public:
     /// Creates the GL context and compiles all shaders. `font` is the path of a font file in any format that FreeType
     /// reads. If `forkJoin` is not null, two threads draw the shapes that are drawn without OpenGL; `forkJoin` must
-    /// outlive this object. If the environment variable LP_NUM_THREADS (the number of threads of llvmpipe, Mesa's
-    /// rasterizer) is 0 or 1, only one thread draws. Throws std::runtime_error if no context can be created, a shader
-    /// does not compile, or the font cannot be read.
+    /// outlive this object. However, only one thread draws if the environment variable LP_NUM_THREADS (the number of
+    /// threads of llvmpipe, Mesa's rasterizer) is 0 or 1. Throws std::runtime_error if no context can be created, a
+    /// shader does not compile, or the font cannot be read.
     explicit Renderer(const std::string& font = fontFile(), ShapeBackend drawing = ShapeBackend::fastest,
                       parallel::ForkJoin* forkJoin = nullptr);
     ~Renderer();

@@ -35,15 +35,15 @@ class ShaderProgram {
     GLint uniformLocation(const char* name) const { return glGetUniformLocation(program_, name); }
     void use() const { glUseProgram(program_); }
 
-    /// Draws triangles in the order of `indices`. Three successive entries of `indices` are the indices of the corners
-    /// of a triangle. `vertices` points to `vertexCount` vertices of the size that was passed to the constructor. The
-    /// arguments are copied.
+    /// Draws triangles in the order of `indices`. Every three successive entries of `indices` are the corners of one
+    /// triangle, as indices of vertices. `vertices` points to `vertexCount` vertices of the size that was passed to the
+    /// constructor. The arguments are copied.
     void draw(const void* vertices, std::size_t vertexCount, std::span<const std::uint32_t> indices);
 
     /// Copies vertices and indices of triangles for later calls of drawIndexRange(). The arguments are those of draw().
     void uploadTriangles(const void* vertices, std::size_t vertexCount, std::span<const std::uint32_t> indices);
-    /// Draws the triangles whose corners are the entries `begin` … `end` − 1 of the indices that were loaded last. Both
-    /// numbers must be multiples of 3.
+    /// Draws the triangles whose corners are the entries `begin` … `end` − 1 of the indices that uploadTriangles() has
+    /// copied last. Both numbers must be multiples of 3.
     void drawIndexRange(std::size_t begin, std::size_t end);
 
   private:

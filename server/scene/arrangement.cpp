@@ -21,25 +21,26 @@ constexpr SliceArrangement kTallOval{.halfWidth = 7.0, .depth = 72.0, .pitch = 0
 
 // The distance between neighboring slices in a row or column, as a multiple of the radius of a slice with its balls.
 constexpr double kLineStep = 2.12;
-// The distance of the eye from a row or column is kSingleDistance plus this multiple of half the length of the row or
-// column. From so far away, the projection is nearly parallel.
+// The distance of the eye from a row or column is kSingleDistance plus this multiple of the distance from its middle to
+// its last slice. From so far away, the projection is nearly parallel.
 constexpr double kLineDistance = 4;
 // How far the label of the focus slice (the middle one) is below the other labels of a row, in heights of text.
 constexpr double kRowFocusDrop = 1.4;
 // How far the label of the focus slice (the middle one) is to the right of the other labels of a column, in heights of
 // text. The distance is needed because the plate behind this label is wider.
 constexpr double kColumnFocusDrop = 0.8;
-// In a grid, the gap between a slice and the slice below it, as a multiple of the text height. The gap contains the
-// label of the upper slice.
+// In a grid, the gap between a slice and the slice below it, in heights of text. The gap contains the label of the
+// upper slice.
 constexpr double kGridLabelRoom = 2.3;
-// In a grid, by how much the gap below the focus slice (the middle one) is larger than other gaps, as a multiple of the
-// text height.
+// In a grid, by how much the gap below the row of the focus slice (the middle one) exceeds the other gaps, in heights
+// of text.
 constexpr double kGridFocusRoom = 2.1;
 // In a grid, the greatest width of labels, except that of the focus slice (the middle one), as a fraction of the column
 // step.
 constexpr double kGridLabelWidth = 0.94;
-// The distance of the eye from a grid is kSingleDistance plus this multiple of the distance from the focus slice to the
-// farthest column or row. From so far away, the slices in the corners look nearly like those in the middle.
+// The distance of the eye from a grid is kSingleDistance plus this multiple of the greater of two distances from the
+// focus slice: to the farthest column and to the farthest row. From so far away, the slices in the corners look nearly
+// like those in the middle.
 constexpr double kGridDistance = 8;
 constexpr double kSingleDistance = 7;  // the distance from the eye to a slice that is shown alone, in circumradii
 
@@ -52,7 +53,8 @@ SliceArrangement ovalArrangement(int count, double aspect) {
     made.depth = mix(kWideOval.depth, kTallOval.depth, t);
     made.pitch = mix(kWideOval.pitch, kTallOval.pitch, t);
     made.distance = mix(kWideOval.distance, kTallOval.distance, t);
-    // If twice as many slices stand on the same parabola, each slice has about half the space.
+    // The parabola has the same length for any number of slices. So with twice as many slices, the radius is little
+    // more than half as large.
     made.sliceRadius = std::clamp(std::pow(static_cast<double>(kReferenceCount) / count, 0.8), 0.1, 1.25);
     made.isClearOfAxes = count == 1;
     return made;
@@ -83,7 +85,7 @@ SliceArrangement columnArrangement(int count, double reach) {
     if (count == 1) return focusSliceAlone();
     SliceArrangement made = rowArrangement(count, reach);
     std::swap(made.halfWidth, made.halfHeight);
-    // Otherwise, the uppermost slices would often cover the symbol of the axes in tall pictures.
+    // If false, the uppermost slices would often cover the symbol of the axes in tall pictures.
     made.isClearOfAxes = true;
     made.labelDrop = 0;
     made.focusLabelDrop = kColumnFocusDrop;
@@ -95,20 +97,22 @@ SliceArrangement columnArrangement(int count, double reach) {
 // Returns a grid with the number of columns at which the slices are largest. `reach` is the radius of a slice with its
 // balls.
 SliceArrangement gridArrangement(int count, double reach, const AvailableSpace& room) {
-    // The projection of the whole object fills a square. To the left of the grid, the side of the square is
-    // kProjectionShare times the width of the room, but at most kProjectionBreadth times the height of the room. Above
-    // the grid, width and height are exchanged.
+    // The projection of the whole object fills a square. The grid and the square are in `part`, a part of the room
+    // beside the axes symbol. If the square is to the left of the grid, its side is kProjectionShare times the width of
+    // `part`, but at most kProjectionBreadth times its height. If the square is above the grid, width and height are
+    // exchanged.
     constexpr double kProjectionShare = 0.3, kProjectionBreadth = 0.9;
-    // If the width of the room divided by its height is at least this, the projection is to the left.
+    // If the width of the room divided by its height is at least this, the projection is to the left of the grid,
+    // otherwise above it.
     constexpr double kLeastWideAspect = 1.3;
     if (count == 1) return focusSliceAlone();
     const double text = style().textHeight;
     SliceGrid grid;
     grid.count = count;
     grid.projectionIsAbove = room.size.x < kLeastWideAspect * room.size.y;
-    double scale = 0;  // the length of a world unit in the picture, in viewport heights
+    double scale = 0;  // the length of a world unit in the picture, in viewport heights; the largest one found so far
     for (const glm::dvec2& part : room.besideAxes) {
-        glm::dvec2 left = part;  // the size of the part that remains without the square of the projection
+        glm::dvec2 left = part;  // the size of `part` without the square of the projection
         double side = 0;
         if (room.hasProjection) {
             double& length = grid.projectionIsAbove ? left.y : left.x;
@@ -152,8 +156,8 @@ ProjectionPlacement projectionBesideFocusSlice(double reach, double aspect) {
 
 // Places the projection of the whole object beside a row or column, in the direction of the unit vector `away`. The
 // projection fills most of the breadth that the slices leave in the room. It is at least as large as a slice, and at
-// most as long as the row or column. `halfLength` is half the length of the row or column. `aspect` is the length of
-// the room in the direction of the row or column, divided by the breadth of the room.
+// most as long as the row or column. `halfLength` is half the length of the row or column, including its end slices.
+// `aspect` is the length of the room in the direction of the row or column, divided by the breadth of the room.
 ProjectionPlacement projectionBesideLine(const glm::dvec3& away, double halfLength, double reach, double aspect) {
     constexpr double kGap = 0.3, kShare = 0.9;
     const double left = 2 * halfLength / aspect - 2 * reach;  // the breadth that the slices leave, in world units

@@ -22,7 +22,7 @@ Color packRgb(const std::array<double, 3>& rgb) {
 
 // Converts a color from Oklch to sRGB (B. Ottosson, "A perceptual color space for image processing", 2020). In Oklch,
 // colors of equal lightness look equally light, whatever their hue. Reduces the chroma of a color outside the sRGB
-// gamut until the color is inside. `hue` is in radians.
+// gamut until the color is inside, or nearly gray. `hue` is in radians.
 Color fromOklch(double lightness, double chroma, double hue) {
     for (;; chroma *= 0.95) {
         const double a = chroma * std::cos(hue);
@@ -64,7 +64,7 @@ Color distinctColor(std::size_t i, std::size_t count, ColorScheme scheme) {
     return colorFor(scheme, i % 2 == 0 ? LightnessPerScheme{0.76, 0.61} : LightnessPerScheme{0.69, 0.5}, 0.18, hue);
 }
 
-// Gives each cell a color of its own if there are at most kFew cells: the hues are well separated. If there are more
+// If there are at most kFew cells, gives each of them a color of its own, with well-separated hues. If there are more
 // cells, the Hopf map takes the direction of each cell's center to a point on the 2-sphere. The longitude of this point
 // determines the hue, and its latitude the lightness. Therefore the cells of a ring along a Hopf fiber have the same
 // color.
@@ -128,8 +128,8 @@ const ScalePerScheme& divergingScales() {
 const glm::dvec4 kLight = glm::normalize(glm::dvec4(-0.35, 0.65, 0.5, 0.6));
 
 // Returns a color scale of one hue. Its values are cosines of angles between the normals of cells and the direction
-// toward the light. The lightness also decreases with negative values, so that cells that are turned away from the
-// light differ from each other.
+// toward the light. The lightness grows from −1 to 1, so cells that are turned away from the light (at negative values)
+// differ from each other, too.
 ColorScale lightingColorScale(ColorScheme scheme) {
     constexpr double kHue = 4.2;
     constexpr LightnessPerScheme kDark{0.3, 0.22}, kRange{0.58, 0.4};
@@ -236,7 +236,7 @@ void CellColorAssigner::updateFaceColors(const slicing::Object& object, Coloring
 }
 
 // Resizes `out` to `count` colors, and stores the object, the coloring and the color scheme for which they are. Returns
-// whether one of these differs from the last call.
+// whether one of these, or the number of colors, differs from the last call.
 bool CellColorAssigner::prepareColors(const slicing::Object& object, Coloring coloring, ColorScheme scheme,
                                       std::size_t count, std::vector<Color>& out) {
     const std::uint64_t serial = slicing::infoOf(object).serial;
@@ -248,8 +248,8 @@ bool CellColorAssigner::prepareColors(const slicing::Object& object, Coloring co
     return changed;
 }
 
-// Gives each cell or 2-face the divergingColor() for the w of its center. If `isNew` is true, directions_ has the
-// centers; otherwise, an earlier call has already scaled them.
+// Gives each cell or 2-face the divergingColor() for the w of its center. If `isNew` is true, scales the centers in
+// directions_ first; otherwise, an earlier call has already scaled them.
 void CellColorAssigner::colorByCenters(const slicing::Object& object, bool isNew, const geometry::Rotation& orientation,
                                        std::vector<Color>& out) {
     if (isNew) scaleDirections(slicing::infoOf(object).circumradius);
@@ -260,12 +260,14 @@ void CellColorAssigner::colorByCenters(const slicing::Object& object, bool isNew
 void CellColorAssigner::scaleDirections(double circumradius) {
     double farthest = 0;
     for (const glm::dvec4& center : directions_) farthest = std::max(farthest, glm::length(center));
-    // If all centers are at the origin, all entries become 0, and everything gets the color for w = 0.
+    // If all centers are at the origin, apart from rounding errors, all entries become 0, and everything gets the color
+    // for w = 0.
     const bool anyAway = farthest > 1e-9 * circumradius;
     for (glm::dvec4& center : directions_) center *= anyAway ? 1 / farthest : 0;
 }
 
-// Sets directions_ to the unit normals of the cells; to 0 for cells that enclose no volume.
+// Sets directions_ to the unit normals of the cells; to 0 for a cell whose signed volume is 0, as that of some
+// self-intersecting cells is.
 void CellColorAssigner::setDirectionsToNormals(const slicing::Object& object) {
     std::vector<double> offsets;
     slicing::findCellHyperplanes(object, directions_, offsets);

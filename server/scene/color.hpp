@@ -24,9 +24,9 @@ std::string cssColor(Color color);
 /// Returns the contrast of two colors by WCAG 2.2: from 1 (equal luminance) to 21 (black and white).
 double contrast(Color a, Color b);
 
-// The following functions take a color scheme, and return a color with the same hue for both schemes. Colors for a
-// light background have a contrast to white of at least 3.6. Even if shading brightens them, their contrast to white
-// and to a nearly white background is at least 3.
+// The following functions with a parameter `scheme` return colors of the same hue for both color schemes. A color for
+// the light scheme has a contrast to white of at least 3.6. Even if shading brightens such a color, its contrast to
+// white and to a nearly white background is at least 3.
 
 /// Returns the color that Coloring::cell_type gives to all cells of the type `type`. `type` is an index less than
 /// `count`, the number of the object's cell types.
@@ -42,21 +42,22 @@ Color plainColor(ColorScheme scheme = ColorScheme::dark);
 /// the color of the nearer end; NaN has the gray of 0.
 Color divergingColor(double value, ColorScheme scheme = ColorScheme::dark);
 
-/// Returns the color of a value on a sequential scale, from dark blue at 0 through green to light yellow at 1; in the
+/// Returns the color of a value on a sequential scale, from dark blue at 0 through green to light yellow at 1. In the
 /// light scheme, the yellow is darkened to olive. Values outside this range have the color of the nearer end.
 Color sequentialColor(double value, ColorScheme scheme = ColorScheme::dark);
 
 /// Returns the color of points without a value: gray.
 Color noValueColor();
 
-/// Computes the colors of an object's cells. Caches all data that do not depend on the orientation.
+/// Computes the colors of an object's cells. Keeps the data that do not depend on the orientation from one call to the
+/// next.
 class CellColorAssigner {
   public:
     /// Writes one color per cell to `out`, as `coloring` specifies. Every call must get the vector that the previous
     /// call wrote, because colors that stay the same are not written again.
     ///
-    /// - Coloring::cell: up to 24 cells all have different colors. With more than 24 cells, the cells along one Hopf
-    ///   fiber (a great circle) share a color.
+    /// - Coloring::cell: if there are at most 24 cells, all have different colors. If there are more, the cells along
+    ///   one Hopf fiber (a great circle) share a color.
     /// - Coloring::cell_type: the color is cellTypeColor().
     /// - Coloring::w: the color is divergingColor() for the w of the cell's center after the rotation, divided by the
     ///   greatest distance of any center from the origin.
@@ -68,7 +69,7 @@ class CellColorAssigner {
 
     /// Writes to `out` the colors of the 2-faces of a surface, which has no cells. With Coloring::w, there is one color
     /// per 2-face: divergingColor() for the w of its center, as for cells. Otherwise, there is a single color for all
-    /// 2-faces: plainColor(). `out` must be the vector of updateCellColors().
+    /// 2-faces: plainColor(). Every call of updateCellColors() or of this function must get the same vector as `out`.
     void updateFaceColors(const slicing::Object& object, Coloring coloring, ColorScheme scheme,
                           const geometry::Rotation& orientation, std::vector<Color>& out);
 

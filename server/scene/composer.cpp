@@ -15,8 +15,8 @@ namespace {
 using slicing::Object;
 using slicing::SliceSet;
 
-// Returns whether the bars, balls and surfaces in the slices of `object` may cross each other, or hide each other in
-// any order.
+// Returns whether the bars, balls, faces and surfaces in the slices of `object` may cross each other, or hide each
+// other in any order.
 bool needsDepthBuffer(const Object& object) {
     switch (slicing::propertiesOf(object).slices) {
         case slicing::SliceContent::curves:
@@ -30,9 +30,9 @@ bool needsDepthBuffer(const Object& object) {
 }
 
 // Finds the cells that determine the colors of the slice faces `faces`, and writes one cell per face to `out`.
-// `sourceOf` returns the source number of a face (see SliceSet::faceSource): the index of the cell from which the face
-// was cut or, if the face is 2-face f of the object, the number of cells + f. If every face was cut from a cell, this
-// cell is its source number, and `out` is left empty.
+// `sourceOf` returns the source number of a face (see SliceSet::faceSource). This is the index of the cell from which
+// the face was cut. If the face is 2-face f of the object, it is the number of cells + f. If every face was cut from a
+// cell, `out` is left empty, because the source numbers are then these cells.
 template <typename Faces, typename SourceOf>
 void findColoringCells(const Object& object, const slicing::VisibilityBySource& visibilities, const Faces& faces,
                        SourceOf sourceOf, std::vector<std::uint32_t>& out) {
@@ -44,7 +44,7 @@ void findColoringCells(const Object& object, const slicing::VisibilityBySource& 
 
 // Adds filled faces of a slice to the filled faces of the projection of the whole object. `from` has the filled faces
 // of the slice number `slice`. In the projection, this slice is part `part`, magnified by `magnification`. Before the
-// call, this part and the following ones must have no filled faces.
+// call, this part and those after it must have no filled faces.
 void addFillOfSection(const slicing::FilledFaces& from, const SliceSet& slices, int slice, double magnification,
                       std::size_t part, ObjectProjection& out) {
     slicing::FilledFaces& fill = out.fill;
@@ -66,8 +66,8 @@ void addFillOfSection(const slicing::FilledFaces& from, const SliceSet& slices, 
         fill.faceBegin[p] = static_cast<std::uint32_t>(fill.faces.size());
 }
 
-// Returns the opacity of translucent faces: `own` times Look::opacity, but at most kMost, which looks opaque. An
-// opacity of 1 would tell clients that faces may cross each other.
+// Returns the opacity of translucent faces: `own` (the opacity without the user's factor) times Look::opacity, but at
+// most kMost, which looks opaque. An opacity of 1 would tell clients that faces may cross each other.
 double translucentOpacity(double own, const Look& look) {
     constexpr double kMost = 0.999;
     return std::min(own * look.opacity, kMost);
@@ -153,7 +153,7 @@ void Composer::compose(const Object& object, const geometry::Rotation& orientati
     out.scale = out.sliceRadius / info.circumradius;
     findColoringCells(object, out.visibilities, slices.faceSource, std::identity(), out.faceCells);
     out.fill.clear();
-    // If the projection is not drawn, it is filled roughly, without any steps.
+    // If the scene is only for pointing, the faces of the projection are filled roughly, without any steps.
     std::size_t fillSteps = draws ? fillSteps_ : 0;
     if (draws && out.needsDepthBuffer && !isField && look.parts.faces)
         fillSteps = filler_.fill(slices, info.circumradius, out.fill, fillSteps);
@@ -187,17 +187,17 @@ void Composer::updateHighlight(const Object& object, bool objectChanged, Scene& 
     }
 }
 
-// Restores the cell color that highlight() has replaced. This is necessary because the cell painter does not write
-// unchanged colors again.
+// Restores the cell color that updateHighlight() has replaced by the highlight color. This is necessary because
+// cellPainter_ does not write unchanged colors again.
 void Composer::removeHighlightColor(Scene& out) {
     if (!replacedColor_) return;
     const auto [cell, color] = *std::exchange(replacedColor_, {});
     if (cell < out.cellColors.size()) out.cellColors[cell] = color;
 }
 
-// Finds the name of the section in the focus slice. If the slice has no name, its label may show another name: that of
-// the convex hull of the polytope's vertices in the hyperplane, if this hull is a solid. The label of a field
-// shows the moment or the place of the slice in the box instead.
+// Finds the name of the section in the focus slice. If the slice has no name, its label may show the name of a convex
+// hull: that of the polytope's vertices in the hyperplane, if this hull is a solid. The label of a field shows the
+// moment or the place of the slice in the box instead.
 void Composer::nameSection(const Object& object, const geometry::Rotation& orientation, int focus, Scene& out) {
     const SliceSet& slices = *out.slices;
     const int slice = focus - slices.planes.first;
@@ -244,8 +244,8 @@ void Composer::layOutIfChanged(const Object& object, const geometry::Hyperplanes
 // filling faces: see slicing::FaceFiller::fill().
 void Composer::projectObject(const Object& object, const geometry::Rotation& orientation, int focus,
                              std::size_t fillSteps, Scene& out) {
-    // The radii of the bars of sections, as multiples of the radius of the object's bars: kSection for the section of
-    // the focus slice (the middle one), kThinSection for the other sections.
+    // The radii of the bars of sections, as multiples of the radius of the object's bars. kSection is for the section
+    // of the focus slice (the middle one), kThinSection for the other sections.
     constexpr double kSection = 1.2, kThinSection = 0.4;
     const Look& look = out.look;
     const SliceSet& slices = *out.slices;
@@ -266,8 +266,8 @@ void Composer::projectObject(const Object& object, const geometry::Rotation& ori
     projection.onlyTurnedAwayLeftOut = projector_.exceededOcclusionSteps();
     const bool isSurface = slicing::propertiesOf(object).slices == slicing::SliceContent::curves;
     if (!isSurface) {
-        // If a face of a section is a whole 2-face of the object, its source number (which says from what it was cut)
-        // stands for this 2-face, not for a cell.
+        // Replaces each source number (which says from what a face was cut) by a cell. If a face of a section is a
+        // whole 2-face of the object, its source number stands for this 2-face, not for a cell.
         for (std::uint32_t& cell : projection.faceCells) cell = slicing::coloringCell(object, out.visibilities, cell);
     } else if (out.cellColors.size() == 1) {
         std::ranges::fill(projection.faceCells, 0U);
@@ -275,7 +275,8 @@ void Composer::projectObject(const Object& object, const geometry::Rotation& ori
     projection.fill.clear();
     if (!slicing::hasConvexFaces(object))
         filler_.fill(projection.elements, out.circumradius, projection.fill, fillSteps, 1);
-    // If the faces of the focus slice (the middle one) may cross each other, they are already filled.
+    // If the faces of the focus slice (the middle one) may cross each other, out.fill already has these faces, and they
+    // are copied from there.
     projection.fill.faceBegin.resize(projection.elements.faceBegin.size());
     const bool hasFocus = focusSlice >= options.firstSlice && focusSlice < options.endSlice;
     const double magnification = hasFocus ? options.projection.magnification(slices.planes.w(focusSlice)) : 1;
@@ -297,7 +298,7 @@ void Composer::projectObject(const Object& object, const geometry::Rotation& ori
     const PictureStyle& styles = out.style();
     projection.parts.clear();
     const double barRadius = look.parts.bars ? bar : 0;
-    // If balls are hidden, balls with the radius and color of the bars join the bars, and the points of a cloud have
+    // If balls are hidden, balls with the radius and color of the bars join the bars. The points of a cloud then have
     // this radius, too (see Scene::drawnBallRadius()).
     const bool isCloud = slicing::propertiesOf(object).slices == slicing::SliceContent::points;
     const double pointRadius = look.parts.balls ? ball : bar;
@@ -331,8 +332,9 @@ void Composer::cutSectionMatrix(const Object& object, const geometry::Rotation& 
             styles.edges.push_back(out.visibilities.face(source));
         }
         for (const std::uint32_t source : matrix.sections[i].pointSource) {
-            // Source numbers stand first for 2-faces, then for edges, then for vertices. For a point cloud, they stand
-            // only for vertices.
+            // The lowest source numbers of points stand for 2-faces, the next ones for edges, the highest ones for
+            // vertices. Slice edges have the same numbers for 2-faces and edges, so the functions for slice edges take
+            // these numbers. For a point cloud, all source numbers stand for vertices.
             const bool isVertex = source >= faces + edges;
             styles.points.push_back(isVertex ? out.visibilities.vertex(source - faces) : out.visibilities.edge(source));
             styles.highlighted.push_back(isVertex ? out.highlight.hasVertex(source - faces)

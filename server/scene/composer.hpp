@@ -27,17 +27,19 @@ namespace oval4d::scene {
 /// The purpose for which a scene is composed.
 enum class ScenePurpose : std::uint8_t {
     drawing,  ///< the scene is drawn, or written to a message or file
-    /// Only for pickElement(), pickLevel() and matrixPointAt(), which need no filled faces, tones or histograms.
+    /// The scene is only passed to pickElement(), pickLevel() and matrixPointAt(), which find what is at a pixel. They
+    /// need no filled faces, density plots or histograms.
     pointing,
 };
 
 /// Composes scenes: the complete descriptions of pictures. Reuses its working memory, and caches data that stay the
-/// same from one scene to the next. All calls must pass the same Scene object, because this object holds part of the
-/// cached data. Only one thread at a time may use a composer.
+/// same from one scene to the next. All calls for one composer must pass the same Scene object, because this object
+/// holds part of the cached data. Only one thread at a time may use a composer.
 class Composer {
   public:
-    /// Limits the work of filling faces that cross each other. compose() passes `steps` to slicing::FaceFiller::fill()
-    /// for the slices. It uses the steps that are left for the projection of the object. By default, there is no limit.
+    /// Limits the work of filling faces that cross each other. compose() may use `steps` steps of
+    /// slicing::FaceFiller::fill(): first for the slices, then for the projection of the object. By default, there is
+    /// no limit.
     void limitFaceFilling(std::size_t steps) { fillSteps_ = steps; }
     /// Limits the work of finding which elements lie behind other cells in the projection of the object (see
     /// slicing::Projector::ProjectionOptions::occlusionSteps).
@@ -52,17 +54,17 @@ class Composer {
                  int focus, const Look& look, Viewport viewport, Scene& out,
                  slicing::Quality quality = slicing::Quality::full, ScenePurpose purpose = ScenePurpose::drawing);
 
-    /// Returns the section in the focus slice (the middle one) that compose() has named last, or that was passed to
-    /// reuseSectionNames() last. Returns an empty optional if there is none yet.
+    /// Returns the latest names of the section in the focus slice (the middle one), found by compose() or passed to
+    /// reuseSectionNames(). Returns an empty optional if there are none yet.
     const std::optional<slicing::NamedSection>& namedSection() const { return section_; }
-    /// Gives compose() the names of a section, so that compose() need not find them.
+    /// Gives compose() the names of a section, so that compose() need not find them if the focus slice is this section.
     void reuseSectionNames(const slicing::NamedSection& section) { section_ = section; }
 
     /// Chooses the lattices on which a field is sliced, such that their cubes have about the same size in pixels in all
-    /// slices of the picture. Overwrites `out`: SurfaceDetail::steps is empty if the surfaces are hidden,
-    /// SurfaceDetail::fogSteps is empty if there is no fog, and both are empty if `object` is not a field. The steps
-    /// are 0 for slices that are not drawn or lie behind the eye. If SurfaceDetail::steps or SurfaceDetail::fogSteps is
-    /// not empty, also lays out `scene`, which must be the Scene that compose() gets next.
+    /// slices of the picture. Overwrites `out`. SurfaceDetail::steps becomes empty if the surfaces are hidden, and
+    /// SurfaceDetail::fogSteps if there is no fog. Both become empty if `object` is not a field. The steps are 0 for
+    /// slices that are not drawn or lie behind the eye. If SurfaceDetail::steps or SurfaceDetail::fogSteps is not
+    /// empty, also lays out `scene`, which must be the Scene that compose() gets next.
     void layOutAndChooseDetail(const slicing::Object& object, const geometry::Hyperplanes& planes, int focus,
                                const Look& look, Viewport viewport, slicing::Quality quality, Scene& scene,
                                slicing::SurfaceDetail& out);
@@ -116,7 +118,7 @@ class Composer {
     slicing::Projector projector_;
     slicing::PlanarSlicer planarSlicer_;
     slicing::PlanarContourTracer contourTracer_;
-    // The data that determine the contours that the scene has; empty if it has none.
+    // The data from which the contours in the scene were computed; empty if the scene has no contours.
     std::optional<ContourInput> contourInput_;
     CellTypeFilter filter_;
     slicing::SectionNamer sectionNamer_;
@@ -131,11 +133,11 @@ class Composer {
 
     DensityPlot density_;
     slicing::CoordinateValueHistograms histogram_;
-    // The serial number of the object whose density plot or histogram was measured last.
+    // The serial number of the object whose density plot or histogram was computed last.
     std::uint64_t densityObject_ = 0;
-    // The orientation of the object when its density plot or histogram was measured last.
+    // The orientation of this object when its density plot or histogram was computed.
     geometry::Rotation densityTurn_;
-    std::vector<double> histogramLevels_;  // the levels of the field when its histogram was measured last
+    std::vector<double> histogramLevels_;  // the levels of the field when its histogram was computed last
 };
 
 }  // namespace oval4d::scene

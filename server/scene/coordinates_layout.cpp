@@ -15,8 +15,8 @@ namespace {
 // viewport's width.
 double availableWidth(double aspect) { return std::max(aspect - 4 * kMargin, aspect / 2); }
 
-constexpr double kMaxAxisStep =
-    0.42;  // the maximum of ParallelCoordinatesLayout::lineStep for a density strip or histogram
+// The maximum of ParallelCoordinatesLayout::lineStep for a density strip or histogram.
+constexpr double kMaxAxisStep = 0.42;
 constexpr double kPlotAmplitude = 0.056;
 constexpr double kStripNameRoom = 1.1;  // the room below the plot for the names of the axes, in heights of text
 

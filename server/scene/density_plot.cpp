@@ -9,12 +9,12 @@ namespace oval4d::scene {
 
 namespace {
 
-constexpr int kMaxLevel =
-    static_cast<int>(DensityPlot::kLineWeight) * (DensityPlot::kRows - 1) / 2;  // the number of bins per circumradius
+// The number of bins per circumradius.
+constexpr int kMaxLevel = static_cast<int>(DensityPlot::kLineWeight) * (DensityPlot::kRows - 1) / 2;
 constexpr int kBins = 2 * kMaxLevel + 1;
 
-// A number that rounds a float to an integer when it is added to the float, because the last bit of the sum has the
-// value 1. Halves are rounded to the even integer, so opposite numbers remain opposite.
+// If this number is added to a float, the sum is rounded to an integer, because the last bit of the sum stands for 1.
+// Halves are rounded to the even integer, so opposite numbers remain opposite.
 constexpr float kRounder = 12582912.0F;  // the value is 1.5 · 2²³
 
 std::uint32_t binOf(float level) {

@@ -1,7 +1,7 @@
 #pragma once
-// Density plots of parallel coordinates, which replace the lines of very many vertices: a density plot shows how many
-// lines pass through each point (Inselberg, Parallel Coordinates, ch. 2; Artero et al., Uncovering Clusters in Crowded
-// Parallel Coordinates).
+// Density plots of parallel coordinates. A density plot replaces the lines of very many vertices: it shows how many
+// lines pass through each point. See Inselberg, Parallel Coordinates, ch. 2, and Artero et al., Uncovering Clusters in
+// Crowded Parallel Coordinates.
 
 #include <array>
 #include <cstddef>
@@ -17,7 +17,7 @@ namespace oval4d::scene {
 /// A density plot of the parallel coordinates of many vertices: a grid of kRows × kColumns weights. Each vertex has a
 /// line that joins its coordinates on neighboring axes. The weight of a place in the grid measures how many lines pass
 /// through it (see kLineWeight). The axes x, y, z and w are at the columns 0, kGap, 2 kGap and 3 kGap. Row 0 is at
-/// +circumradius, the last row at −circumradius. Reuses its memory between measurements.
+/// +circumradius, the last row at −circumradius. Reuses its memory between calls of compute().
 class DensityPlot {
   public:
     static constexpr int kGap = 64;  ///< the number of columns from one axis to the next
@@ -45,7 +45,8 @@ class DensityPlot {
   private:
     void countColumn(int column);
 
-    // x, y, z and w of each vertex, in bins; kLineWeight bins are as high as a row
+    // The x, y, z and w of all vertices, as numbers of bins from the origin. A row of the plot is kLineWeight bins
+    // high.
     std::array<std::vector<float>, 4> levels_;
     std::vector<std::uint32_t> weights_;
     std::vector<std::uint8_t> tones_;

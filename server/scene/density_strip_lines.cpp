@@ -10,7 +10,8 @@ namespace oval4d::scene {
 
 namespace {
 
-// Finds the vertex line that is nearest to a point. The lines must be added in ascending order of their vertices.
+// Finds the vertex line that is nearest to a point. keepIfNearer() must get the lines in ascending order of their
+// vertices.
 class NearestLineFinder {
   public:
     void keepIfNearer(std::size_t vertex, double distance) {
@@ -38,7 +39,7 @@ class NearestLineFinder {
 
 std::optional<std::size_t> vertexInDensityStripAt(const Scene& scene, glm::dvec2 at) {
     const ParallelCoordinatesLayout& layout = scene.coordinates;
-    // The distance of the point from the middle of the line of axis x.
+    // How far the point is to the right of the middle of axis x, in viewport heights.
     const double right = at.x - (layout.left + layout.lineWidth / 2);
     if (layout.lineStep <= 0 || right < -kLineReach || right > 3 * layout.lineStep + kLineReach) return std::nullopt;
     const double along = std::clamp(right / layout.lineStep, 0.0, 3.0);

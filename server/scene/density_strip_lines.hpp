@@ -1,6 +1,7 @@
 #pragma once
-// Chooses and finds the lines of single vertices in a density strip (a plot of parallel coordinates, see
-// ParallelCoordinatesLayout). The line of a vertex joins its coordinates on the axes x, y, z and w.
+// Chooses the vertices whose lines are drawn over a density strip (a plot of parallel coordinates, see
+// ParallelCoordinatesLayout), and finds the line at a point of the strip. The line of a vertex joins its coordinates on
+// the axes x, y, z and w.
 
 #include <algorithm>
 #include <cstddef>
@@ -29,8 +30,8 @@ void forEachLineOverDensityStrip(std::span<const std::uint32_t> ownVertices, Vis
     for (std::size_t i = 0; i < drawn; ++i) visit(ownVertices[drawn < count ? i * (count - 1) / (kMax - 1) : i]);
 }
 
-/// The distance, in viewport heights, within which a point of the density strip counts as on the line of a vertex:
-/// above or below the line, or beyond its ends.
+/// The greatest distance, in viewport heights, at which a point of the density strip still counts as on the line of a
+/// vertex: above or below the line, or beyond its ends.
 inline constexpr double kLineReach = 0.006;
 
 /// Returns the vertex whose line passes through, or nearest to, the point `at` of a density strip. Returns an empty

@@ -42,8 +42,8 @@ glm::ivec3 findFogBlocks(const slicing::SliceFog& fog, const FogTransferTable& t
     for (glm::ivec3 b(0); b.z < blocks.z; ++b.z) {
         for (b.y = 0; b.y < blocks.y; ++b.y) {
             for (b.x = 0; b.x < blocks.x; ++b.x) {
-                // Points without a value, which have the byte 0, are skipped, because FogPainter (draws the fog) leaves
-                // them out of the interpolation.
+                // Points without a value (byte 0) are skipped, because FogPainter, which draws the fog, leaves them out
+                // of the interpolation.
                 const glm::ivec3 first = b * kFogBlock, last = glm::min(first + kFogBlock, fog.size - 1);
                 std::uint8_t least = 255, greatest = 0;
                 for (int k = first.z; k <= last.z; ++k) {

@@ -32,9 +32,10 @@ void makeFogTable(std::span<const slicing::FogControlPoint> points, FogTransferT
 /// The number of lattice cubes along each side of the blocks into which findFogBlocks() divides a fog lattice.
 inline constexpr int kFogBlock = 4;
 
-/// Finds the blocks of a lattice that contain visible fog. Writes one byte per block to `out`; x varies fastest. The
-/// byte is 255 if `table` gives an opacity above 0 to any value between the least and the greatest value of the block's
-/// lattice points, else 0. Lattice points without a value are ignored. Returns the number of blocks along each axis.
+/// Finds the blocks of a lattice that may contain visible fog. Writes one byte per block to `out`; x varies fastest.
+/// The byte is 255 if `table` gives an opacity above 0 to any value from the least to the greatest value of the block's
+/// lattice points. Otherwise it is 0. Lattice points without a value are ignored. Returns the number of blocks along
+/// each axis.
 glm::ivec3 findFogBlocks(const slicing::SliceFog& fog, const FogTransferTable& table, std::vector<std::uint8_t>& out);
 
 }  // namespace oval4d::scene

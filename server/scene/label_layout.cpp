@@ -16,7 +16,7 @@ namespace {
 constexpr double kLabelGap = 0.014;  // the gap between a slice and its label, in viewport heights
 
 // The sizes of characters and of the plates behind labels, as multiples of the font size. The widths of characters are
-// those of DejaVu Sans, rounded up.
+// those of DejaVu Sans, rounded up. kFocusPrefixWidth is the width of "w = ".
 constexpr double kDigitWidth = 0.64, kSignWidth = 0.84, kPointWidth = 0.32, kFocusPrefixWidth = 2.31;
 // The mean width of the letters of a section's name, rounded up, as a multiple of the font size.
 constexpr double kLetterWidth = 0.62;

@@ -20,8 +20,8 @@ namespace oval4d::scene {
 class LabelLayout {
   public:
     /// Prepares the labels of the slices in `placements`. `decimals` is the number of decimals in the labels. `originW`
-    /// is added to each w (see LayoutObjectInfo). `arrangement` and `placements` must outlive this object, which
-    /// changes the labels in `placements`.
+    /// is added to each w (see LayoutObjectInfo). Other functions of this object change the labels in `placements`.
+    /// `arrangement` and `placements` must outlive this object.
     LabelLayout(const SliceArrangement& arrangement, int decimals, double originW,
                 std::vector<SlicePlacement>& placements);
 
@@ -36,8 +36,8 @@ class LabelLayout {
     Rect overhang(const Rect& bounds, double scale) const;
 
     /// Places each label on the outer side of the curve on which the slices stand, where there is no neighboring slice.
-    /// Labels are below the focus slice (the middle one) and the slices of a row, beside and somewhat below the slices
-    /// on the arms of the oval, and to the right of the slices of a column.
+    /// Labels are below the focus slice (the middle one) of an oval, and below the slices of a row or grid. They are
+    /// beside and somewhat below the slices on the arms of the oval, and to the right of the slices of a column.
     void placeLabels(const Camera& camera);
 
     /// Appends the name of the section to the label of the focus slice (the middle one), if there is room for it in the
@@ -46,11 +46,13 @@ class LabelLayout {
     void nameFocusSlice(std::string_view name, const Camera& camera, double aspect);
 
     /// Removes labels so that no two of them overlap. Keeps the label of the focus slice (the middle one) and, of the
-    /// others, at most every k-th (see smallestLabelStep()). Also removes a label if it is behind the eye, if it
-    /// extends beyond the picture, or if it overlaps the kept label of a slice nearer to the focus slice. If the viewer
-    /// has moved the camera (`isMoved`), also removes a label in two more cases: if it overlaps another slice or the
-    /// axes symbol (whose box is `axes`), or if it extends below `bottom`, the upper edge of the parallel coordinates,
-    /// which are drawn below the slices.
+    /// others, at most every k-th (see smallestLabelStep()). Also removes a label in these cases:
+    /// - It is behind the eye, or extends beyond the picture.
+    /// - It overlaps the kept label of a slice that is nearer to the focus slice.
+    /// - The viewer has moved the camera (`isMoved`), and the label overlaps another slice or the axes symbol, whose
+    ///   box is `axes`.
+    /// - The viewer has moved the camera, and the label extends below `bottom`, the upper edge of the parallel
+    ///   coordinates.
     void removeOverlappingLabels(const Camera& camera, double aspect, double bottom, const CenteredRect& axes,
                                  bool isMoved);
 
@@ -76,8 +78,8 @@ class LabelLayout {
     //
     // Let n be `direction`, r the radius of the sphere, c the coordinates of its center parallel to the screen, and d
     // the depth of the center. A line on the screen perpendicular to n shows a plane through the eye: the points with
-    // coordinates p and depth q for which n · p = e q, for some number e. The plane touches the sphere if (n · c − e
-    // d)² = r² (1 + e²). With the larger solution e, the sphere extends by e d − n · c.
+    // coordinates p and depth q for which n·p = e·q, for some number e. The plane touches the sphere if (n·c − e·d)² =
+    // r²·(1 + e²). With the larger solution e, the sphere extends by e·d − n·c world units.
     double extentOf(double u, const glm::dvec2& direction, double scale) const;
 
     // Returns the vector on the screen from the center of slice i to the center of its label, in viewport heights. At
@@ -89,8 +91,8 @@ class LabelLayout {
     // distance 1 from the eye.
     CenteredRect labelBoxInInitialView(std::size_t i, double scale) const;
 
-    // Returns the place in the picture of the point p in view coordinates, in viewport heights from the lower left
-    // corner. `aspect` is the width of the picture, in viewport heights.
+    // Returns where the point p, given in view coordinates, appears in the picture: in viewport heights from the lower
+    // left corner. `aspect` is the width of the picture, in viewport heights.
     static glm::dvec2 screenPosition(const glm::dvec3& p, const Camera& camera, double aspect);
 
     // Returns whether the box of label i overlaps a slice other than slice i. `box` is the result of boxSeenBy() for

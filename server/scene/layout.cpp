@@ -59,9 +59,9 @@ Rect boundsOf(const std::vector<Circle>& circles) {
     return bounds;
 }
 
-// Sets in `placement` the radii of the object, its balls and its bars, so that the projection of the object with its
-// balls fits into the sphere of `placement`. `relativeBall` is the radius of the balls of slices, as a fraction of the
-// slice radius.
+// Sets the radii of the object, its balls and its bars in `placement`, so that the projection of the object with its
+// balls fits into a sphere with the radius `placement.radius`. `relativeBall` is the radius of the balls of slices, as
+// a fraction of the slice radius.
 void setRadii(const ProjectionSettings& projection, double relativeBall, ProjectionPlacement& placement) {
     // The projection has many more bars in less room than a slice. So its balls and bars are thinner than those of
     // slices, by this factor.
@@ -88,8 +88,9 @@ double scaleToFit(const Rect& bounds, const Rect& room) {
                     (room.top - room.bottom) / (bounds.top - bounds.bottom));
 }
 
-// Sets the camera's field of view and shift so that `bounds` fits into `room` and is centered in it. Then magnifies the
-// picture about the view axis by the factor `zoom`.
+// Sets the camera's field of view and shift so that `bounds` fits into `room` and is centered in it. `bounds` is on the
+// plane at distance 1 from the eye, and `room` is in viewport heights. Then magnifies the picture about the view axis
+// by the factor `zoom`.
 void fitCamera(const Rect& bounds, const Rect& room, double aspect, double zoom, Camera& camera) {
     const double scale = scaleToFit(bounds, room);
     camera.fieldOfView = 2 * std::atan(0.5 / (scale * zoom));
@@ -140,7 +141,8 @@ CenteredRect boxOf(const AxesSymbolLayout& axes) {
 }
 
 // Returns the part of `room` in which the slices must be placed so that their labels fit into `room`, too. This part
-// has at least half the width and half the height of `room`.
+// has at least half the width and half the height of `room`. `bounds` are the bounds of the slices on the plane at
+// distance 1 from the eye.
 Rect roomForSlices(const Rect& room, const Rect& bounds, const LabelLayout& labels) {
     const double maxX = (room.right - room.left) / 4, maxY = (room.top - room.bottom) / 4;
     Rect inside = room;
@@ -148,7 +150,7 @@ Rect roomForSlices(const Rect& room, const Rect& bounds, const LabelLayout& labe
     // the labels leave. A few steps of this iteration suffice.
     for (int step = 0; step < 4; ++step) {
         const Rect overhang = labels.overhang(bounds, scaleToFit(bounds, inside));
-        // Labels that are only to the right of the slices may take half of the width.
+        // If labels are only to the right of the slices, they may take half of the width of `room`.
         const double left = std::min(overhang.left, maxX);
         inside = {room.left + left, room.right - std::min(overhang.right, 2 * maxX - left),
                   room.bottom + std::min(overhang.bottom, maxY), room.top - std::min(overhang.top, maxY)};
@@ -167,8 +169,8 @@ std::array<Rect, 2> roomBesideAndBelow(const CenteredRect& axes, const Rect& roo
 
 // Returns the part of `room` in which the slices must be placed, like roomForSlices(), but leaves the axes symbol free.
 // `axes` is the box of the symbol. `circles` are the outlines of the slices and of the projection. If a circle would
-// overlap the symbol, uses only the part of `room` to the right of the symbol or the part below it, whichever lets the
-// slices be larger. Uses the part to the right only if labels beside the slices take at most half of its width.
+// overlap the symbol, uses only a part of `room`: to the right of the symbol or below it, whichever lets the slices be
+// larger. Uses the part to the right only if labels beside the slices take at most half of its width.
 Rect roomClearOfAxes(const Rect& room, const Rect& bounds, const LabelLayout& labels,
                      const std::vector<Circle>& circles, const CenteredRect& axes) {
     const Rect inside = roomForSlices(room, bounds, labels);
@@ -186,9 +188,9 @@ Rect roomClearOfAxes(const Rect& room, const Rect& bounds, const LabelLayout& la
     return labelsFit && scaleToFit(bounds, right) > scaleToFit(bounds, below) ? right : below;
 }
 
-// Places the matrix of planar sections at the right of `room` or, if the room is tall, at its lower end. Takes this
-// part away from `room`. `relativeBall` is LayoutObjectInfo::relativeBallRadius. The matrix has no balls and bars, so
-// it ignores Look::thickness.
+// Places the matrix of planar sections at the right side of `room` or, if `room` is not wider than high, at its lower
+// side. Reduces `room` by the place of the matrix. `relativeBall` is LayoutObjectInfo::relativeBallRadius. The matrix
+// has no balls and bars, so it ignores Look::thickness.
 SectionMatrixLayout placeMatrix(Rect& room, double relativeBall) {
     constexpr double kShare = 0.64, kGap = 0.03, kPanelGap = 0.06;
     const double width = room.right - room.left, height = room.top - room.bottom;
@@ -198,8 +200,8 @@ SectionMatrixLayout placeMatrix(Rect& room, double relativeBall) {
     matrix.shown = true;
     matrix.step = side / (4 - kPanelGap);
     matrix.panel = (1 - kPanelGap) * matrix.step;
-    // The sections of an object with many elements have many points. So the points become smaller, as the balls of the
-    // object do.
+    // The sections of an object with many elements have many points. So these points are smaller, as the balls of such
+    // an object are.
     matrix.pointRadius = std::min(relativeBall * matrix.panel, 0.0042);
     matrix.lineWidth = std::clamp(1.5 * matrix.pointRadius, 0.0022, 0.0042);
     if (wide) {
@@ -236,8 +238,8 @@ void layOut(const geometry::Hyperplanes& planes, int focus, const LayoutObjectIn
     const double side = std::min(kMargin, aspect / 4);
     Rect room{side, aspect - side, kMargin, 1 - kMargin};
     if (look.parts.coordinates) room.bottom += out.coordinates.zero + out.coordinates.amplitude;
-    // The radius of the balls of slices, as a fraction of the slice radius. All radii of balls and bars are
-    // proportional to this radius.
+    // The radius of the balls of slices, as a fraction of the slice radius. All radii of balls and bars in slices and
+    // in the projection are proportional to it.
     const double relativeBall = look.thickness * content.relativeBallRadius;
     const bool projected = look.projection.kind != ProjectionKind::off;
     const auto [right, below] = roomBesideAndBelow(boxOf(out.axes), room);

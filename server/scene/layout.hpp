@@ -20,12 +20,12 @@ namespace oval4d::scene {
 struct SlicePlacement {
     int index = 0;           ///< the index n of the slice's hyperplane (see geometry::Hyperplanes)
     double w = 0;            ///< the w of the slice's hyperplane, in the object's coordinates
-    glm::dvec3 position{0};  ///< the position of the slice's origin
+    glm::dvec3 position{0};  ///< the place of the slice's point x = y = z = 0
     /// The text of the label, with w in the coordinates of the object's file: "−0.25". For the focus slice (the middle
-    /// one), the text is "w = −0.25", followed by a comma and the name of the section, if the section has a name and
-    /// there is room for it. Empty if the label is not shown.
+    /// one), the text is "w = −0.25". A comma and the name of the section follow, if the section has a name and there
+    /// is room for it. Empty if the label is not shown.
     std::string label;
-    glm::dvec3 labelAt{0};  ///< the center of the label's top edge
+    glm::dvec3 labelAt{0};  ///< the center of the top edge of the label's text, in world space
     double labelSize = 1;   ///< the font size of the label, as a multiple of PictureStyle::textHeight
     bool focus = false;     ///< whether the slice is the focus slice
     bool drawn = true;      ///< whether the slice is drawn: see showsAllSlices()
@@ -35,8 +35,8 @@ struct SlicePlacement {
 /// The layout of the parallel coordinates. All lengths are fractions of the viewport's height. Positions are measured
 /// from the viewport's lower left corner. There are three forms:
 /// - Lines: vertex i is in row i / perRow and column i % perRow, and has four vertical lines, for its x, y, z and w.
-///   Each line extends up or down from the row's zero line. A line of the length `amplitude` represents the
-///   circumradius.
+///   Each line extends from the row's zero line, up for a positive coordinate and down for a negative one. A line of
+///   the length `amplitude` represents the circumradius.
 /// - A density strip, for more than kMaxVerticesAsLines vertices. The strip has four vertical axes, at `left` + k ·
 ///   `lineStep` for axis k (0 … 3), from −circumradius at `zero` − `amplitude` to +circumradius at `zero` +
 ///   `amplitude`. The lines of single vertices (see density_strip_lines.hpp) run from the middle of one axis to the
@@ -69,8 +69,9 @@ struct ParallelCoordinatesLayout {
 /// drawn instead.
 inline constexpr std::size_t kMaxVerticesAsLines = 300;
 
-/// The layout of the symbol in the upper left corner that shows the directions of the axes: the distances of its center
-/// from the left (`x`) and top (`y`) edges, and the length of each axis. All are fractions of the viewport's height.
+/// The layout of the axes symbol, which shows the directions of the axes in the upper left corner. `x` and `y` are the
+/// distances of its center from the left and the top edge of the picture. `length` is the length of each axis. All are
+/// fractions of the viewport's height.
 struct AxesSymbolLayout {
     double x = 0, y = 0, length = 0;
     bool operator==(const AxesSymbolLayout&) const = default;
@@ -143,8 +144,8 @@ struct LayoutObjectInfo {
     bool operator==(const LayoutObjectInfo&) const = default;
 };
 
-/// Lays out a picture. `planes` are the hyperplanes of the slices, and `focus` is the number n of the focus slice (see
-/// geometry::Hyperplanes). `focusName` is the text that follows w in the label of the focus slice (the middle one), if
+/// Lays out a picture. `planes` are the hyperplanes of the slices, and `focus` is the index n of the focus slice, the
+/// middle one (see geometry::Hyperplanes). `focusName` is the text that follows w in the label of the focus slice, if
 /// there is room for it. Overwrites `out` and reuses its memory.
 void layOut(const geometry::Hyperplanes& planes, int focus, const LayoutObjectInfo& content, const Look& look,
             Viewport viewport, std::string_view focusName, PictureLayout& out);

@@ -24,7 +24,7 @@ namespace oval4d::scene {
 /// therefore these numbers must not change.
 enum class View : std::uint8_t {
     oval = 0,    ///< all slices, on the oval
-    single = 1,  ///< only the focus slice is shown
+    single = 1,  ///< only the focus slice
     matrix = 2,  ///< the focus slice, beside the matrix of planar sections
     strip = 3,   ///< all slices, at the same size in a straight row
     column = 4,  ///< all slices, at the same size in a straight column
@@ -104,7 +104,8 @@ constexpr const auto& choicesOf(ProjectionKind /*type*/) { return kProjectionKin
 
 /// How the whole object is projected.
 struct ProjectionSettings {
-    static constexpr geometry::NumberRange kEyeRange{1.05, 1000};  ///< greater than 1, so the eye is outside the object
+    /// The range of `eye`, in circumradii; above 1, so that the eye is outside the object.
+    static constexpr geometry::NumberRange kEyeRange{1.05, 1000};
 
     ProjectionKind kind = ProjectionKind::off;
     double eye = 3;  ///< for the perspective: the w coordinate of the 4-D eye, in circumradii; within kEyeRange
@@ -146,7 +147,7 @@ struct Look {
     CellTypeFilter cellTypes = {};
     ProjectionSettings projection = {};
     std::optional<slicing::Element> highlight = {};  ///< the element of the object that is drawn in the highlight color
-    /// The x, y and z of the focus point, in the object's units, after the rotation; the w of the focus point is that
+    /// The x, y and z of the focus point, in the object's units, after the rotation. The w of the focus point is that
     /// of the focus slice (the middle one). The planes of the matrix view pass through this point.
     glm::dvec3 focusPoint{0};
     slicing::FieldSettings field = {};  ///< for a field: the levels whose surfaces are shown, and the fog

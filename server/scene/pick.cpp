@@ -154,7 +154,7 @@ class ElementPicker {
 
     // Finds the element at the pixel in slice i of `set`, or in part i of the projection. Keeps the element in picked_
     // if it is nearer than the element in picked_. `position` and `scale` map the units of the object to world space.
-    // `where` has the members `in` and `slice` to report.
+    // `where` has the values for PickedElement::in and PickedElement::slice.
     void pickInSlice(const SliceSet& set, std::size_t i, const glm::dvec3& position, double scale,
                      const DrawnElementSizes& sizes, const PickedElement& where) {
         const std::uint32_t v0 = set.vertexBegin[i], e0 = set.edgeBegin[i];
@@ -245,8 +245,8 @@ class ElementPicker {
     glm::dvec2 size_, pixel_;
     double focalLength_ = 0;
     glm::dvec3 ray_;
-    // Per vertex of the slice or part in which pick() searches: its view coordinates (points_) and its pixel (pixels_).
-    // The pixel has no meaning for a vertex that is not in front of the eye.
+    // Per vertex of the slice or part in which pickInSlice() searches: its view coordinates (points_) and its pixel
+    // (pixels_). The pixel has no meaning for a vertex that is not in front of the eye.
     std::vector<glm::dvec3> points_;
     std::vector<glm::dvec2> pixels_;
     double nearest_ = std::numeric_limits<double>::max();  // the depth of the element in picked_

@@ -25,13 +25,14 @@ inline constexpr auto kPickedIn =
 struct PickedElement {
     slicing::Element element;
     PickLocation in = PickLocation::slice;
-    std::size_t slice =
-        0;  ///< for PickLocation::slice: the index of the slice in the SliceSet; otherwise without meaning
-    /// In slices and in the projection: the distance from the eye along the camera's axis, in world units.
+    /// For PickLocation::slice: the index of the slice in the SliceSet. Otherwise without meaning.
+    std::size_t slice = 0;
+    /// In slices and in the projection: the distance of the element from the eye along the camera's axis, in world
+    /// units.
     double depth = 0;
 };
 
-/// Returns the element of `object` that the picture shows at the point (x, y), in pixels from the upper left corner.
+/// Returns the element of `object` that the picture shows at the pixel `point`: (x, y) from the upper left corner.
 /// Returns an empty optional if there is none.
 /// - In slices, the result is the element whose ball, bar or face is nearest to the viewer.
 /// - Where the slices show no element, the result is the nearest element in the projection, over which the slices are
@@ -40,23 +41,25 @@ struct PickedElement {
 ///   ParallelCoordinatesLayout::hasLines()), or the vertex that vertexInDensityStripAt() finds.
 /// - In a panel of the matrix, the result is the element from which the point or edge of the section was cut.
 ///
-/// Balls, bars, points and edges are found up to 3 pixels from their centers, or farther where they are drawn thicker.
-/// Takes time linear in the size of the slices and in the number of vertices.
+/// Balls and points are found at least up to 3 pixels from their centers, and bars and edges at least up to 3 pixels
+/// from their axes, even if they are drawn thinner. Takes time linear in the size of the slices and in the number of
+/// vertices.
 std::optional<PickedElement> pickElement(const Scene& scene, const slicing::Object& object, glm::dvec2 point);
 
-/// Returns the 4-D point that a panel of the matrix shows at the point (x, y), in pixels from the upper left corner.
+/// Returns the 4-D point that a panel of the matrix shows at the pixel `point`: (x, y) from the upper left corner.
 /// Returns an empty optional outside the panels, on the diagonal, and if the scene shows no matrix. The result is in
 /// the object's units and in the coordinates after the rotation, like SectionMatrix::point.
 std::optional<glm::dvec4> matrixPointAt(const Scene& scene, glm::dvec2 point);
 
-/// The least distance, in pixels, within which balls, bars, points, edges and contours are found.
+/// The distance, in pixels, within which pickElement() and pickLevel() find balls, bars, points, edges and contours,
+/// even if these are drawn thinner.
 inline constexpr double kHitRadius = 3;
 
-/// Returns the direction, in view coordinates, of the ray from the eye through the point (x, y), in pixels from the
-/// upper left corner. The z of the direction is −1.
+/// Returns the direction, in view coordinates, of the ray from the eye through the pixel `point`: (x, y) from the upper
+/// left corner. The z of the direction is −1.
 glm::dvec3 viewRayThrough(const Scene& scene, glm::dvec2 point);
 
-/// Returns whether slices are hidden at the point (x, y), in pixels from the upper left corner. Slices may be hidden in
+/// Returns whether slices are hidden at the pixel `point`: (x, y) from the upper left corner. Slices may be hidden in
 /// the part of the picture that belongs to the parallel coordinates (see Scene::clearsCoordinatesArea()).
 bool isClearedOfSlices(const Scene& scene, glm::dvec2 point);
 

@@ -27,7 +27,8 @@ struct SliceRay {
     std::size_t slice = 0;
     glm::dvec3 start{0}, direction{0};
     double entry = 0, exit = 0;  // the depths between which the ray is in the box of the field
-    bool beginsAtWall = false;   // whether the ray enters the box at `entry`; if false, the eye is inside the box
+    // Whether the ray enters the box at `entry`. If false, the box begins nearer to the eye than Camera::near.
+    bool beginsAtWall = false;
 };
 
 // Finds the surface at a pixel by casting the ray through this pixel.
@@ -86,8 +87,8 @@ class RayCaster {
         slicing::placeSection(field_, toFunction_, scene_.placements[slice].w, section_);
     }
 
-    // Returns the part of the ray in a slice whose section has been placed. Returns an empty optional if the ray misses
-    // the box of the field. `position` and `scale` map the units of the object to world space.
+    // Returns the part of the ray in the slice whose section placeSection() has placed last. Returns an empty optional
+    // if the ray misses the box of the field. `position` and `scale` map the units of the object to world space.
     std::optional<SliceRay> rayThrough(PickLocation in, std::size_t slice, const glm::dvec3& position,
                                        double scale) const {
         SliceRay ray;
@@ -120,7 +121,8 @@ class RayCaster {
 
     // Finds the first point of a surface on the ray. Keeps the point if it is nearer than nearest_.
     void cast(const SliceRay& ray) {
-        constexpr double kTime = 1.5e8;  // the time for the rays through all slices together, in nanoseconds
+        // The intended time to evaluate all rays through the slices together, in nanoseconds.
+        constexpr double kTime = 1.5e8;
         const double affordable =
             kTime / (static_cast<double>(scene_.placements.size()) * std::max(field_.function->cost().value, 1.0));
         const double perDiameter = std::clamp(affordable, kMinRaySamples, kRaySamples);

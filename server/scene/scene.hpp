@@ -46,8 +46,8 @@ struct ObjectProjection {
     std::vector<std::uint32_t> faceCells;
     std::vector<ProjectionPartLook> parts;  ///< the look of each part of `elements`
     double scale = 1;                       ///< world units per unit of the object
-    /// Whether only elements of cells turned away from the eye were left out: see
-    /// slicing::Projector::exceededOcclusionSteps().
+    /// Whether the steps were too few to find what lies behind other cells. If so, only elements of cells turned away
+    /// from the eye were left out (see slicing::Projector::exceededOcclusionSteps()).
     bool onlyTurnedAwayLeftOut = false;
     /// The filled faces of those parts of `elements` of which pieces (convex polygons) are drawn instead of polygons.
     /// These are part 0 if its polygons need not be convex, and the section of the focus slice (the middle one) if
@@ -58,7 +58,8 @@ struct ObjectProjection {
     /// The surface of the focus slice (the middle one) of a field, at its place in the projection.
     struct FocusSurface {
         std::size_t slice;  ///< the index of the focus slice in SliceSet::surfaces
-        /// The scale of the surface, as the projection magnifies its hyperplane: world units per unit of the object.
+        /// World units per unit of the object in the projected surface. This includes the factor by which the
+        /// projection magnifies the hyperplane of the slice.
         double scale;
     };
     std::optional<FocusSurface> focusSurface;  ///< empty if no surfaces are drawn
@@ -111,9 +112,9 @@ struct Scene : PictureLayout {
     Look look;
     Viewport viewport;
     double scale = 1;  ///< world units per unit of the object
-    /// One color per cell. For a surface, only the projection shows the 2-faces. If ShownParts::projectionFaces is
-    /// true, there is one color per 2-face, or one color for all of them; otherwise the list is empty (see
-    /// CellColorAssigner::updateFaceColors()).
+    /// One color per cell. A surface has no cells; only its projection shows 2-faces, if ShownParts::projectionFaces is
+    /// true. The list then has one color per 2-face, or one color for all of them (see
+    /// CellColorAssigner::updateFaceColors()); otherwise it is empty.
     std::vector<Color> cellColors;
     /// For each face of `slices`, the cell that determines the color of the face. Empty if the list would be equal to
     /// SliceSet::faceSource.
@@ -125,16 +126,17 @@ struct Scene : PictureLayout {
     SectionMatrix sectionMatrix;               ///< the planar sections in the matrix; valid if matrix.shown is true
     double faceOpacity = style().faceOpacity;  ///< the opacity of the faces of slices, 0 … 1
     /// Whether drawing the slices needs a depth buffer, because the order in which their shapes hide each other is not
-    /// known in advance. This is so for fields, surfaces and nonconvex polytopes, whose faces may cross each other. If
-    /// true, faces are opaque, and the triangles of `fill` are drawn instead of the polygons of the faces.
+    /// known in advance. True for fields, for surfaces, and for nonconvex polytopes, of which faces may cross each
+    /// other. If true, faces are opaque, and the pieces of `fill` are drawn instead of the polygons of the faces.
     bool needsDepthBuffer = false;
     /// The filled faces of slices; empty for a field, if faces are hidden, and if `needsDepthBuffer` is false.
     slicing::FilledFaces fill;
     SurfaceLook surfaces;                  ///< how SliceSet::surfaces are drawn; empty if no surfaces are drawn
     FogTransferTable fog;                  ///< how SliceSet::fogs are drawn; empty if no fog is drawn
     std::vector<std::uint32_t> fillCells;  ///< for each face of `fill`, the cell that determines the color of the face
-    /// If showsDensity() is true, the tones of the density plot (DensityPlot::tones()); if showsHistogram() is true,
-    /// those of the histograms of a field (slicing::CoordinateValueHistograms::tones()); otherwise without meaning.
+    /// The tones (0 … 255) of the density plot if showsDensity() is true (see DensityPlot::tones()), or of the
+    /// histograms of a field if showsHistogram() is true (see slicing::CoordinateValueHistograms::tones()). Otherwise
+    /// without meaning.
     std::vector<std::uint8_t> plotTones;
     HistogramAxes histogram;         ///< valid if showsHistogram() is true
     fields::PictureUnits axisUnits;  ///< the units of a field's axes and values; unknown for all other objects

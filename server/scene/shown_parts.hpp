@@ -16,9 +16,8 @@ struct ShownParts {
     /// Whether the projection of the whole object shows the 2-faces: those that bound the projected cells, or those of
     /// a surface.
     bool projectionFaces = false;
-    bool back =
-        /// Whether the projection shows what the 4-D eye cannot see (see slicing::Projector::ProjectionOptions::culled)
-        true;
+    /// Whether the projection shows what the 4-D eye cannot see (see slicing::Projector::ProjectionOptions::culled).
+    bool back = true;
     bool allSections = false;  ///< whether the projection shows the sections of all slices, not only of the focus slice
     bool operator==(const ShownParts&) const = default;
 };

@@ -68,7 +68,7 @@ struct SurfaceLook {
         return sliceColors.empty() ? level.color : sliceColors[slice];
     }
     /// Returns the color of the contours of a level in the matrix of planar sections. `index` is LevelLook::index of
-    /// one of `levels`. In most planes of the matrix, w varies, so `sliceColors` are not used.
+    /// one of `levels`. In half of these planes, w varies, so `sliceColors` are not used.
     Color contourColor(std::size_t index) const { return std::ranges::find(levels, index, &LevelLook::index)->color; }
     bool colorsPoints() const { return pointColoring != PointColoring::none; }
     bool colorsCapPoints() const { return capColoring != PointColoring::none; }
@@ -78,8 +78,9 @@ struct SurfaceLook {
     Color capPointColor(const slicing::SliceSurface& surface, std::size_t point) const;
 };
 
-/// Returns the color of a point where the surface moves outward at the speed `growth` while w increases (see
-/// SliceSurface::growth): amber where the body grows, blue where it shrinks, gray where it does not change.
+/// Returns the color of a point of a surface for Coloring::growth. `growth` is the speed at which the surface moves
+/// outward there while w increases (see SliceSurface::growth). The color is amber where the body grows, blue where it
+/// shrinks, and gray where it does not change.
 Color growthColor(float growth, ColorScheme scheme = ColorScheme::dark);
 
 /// Returns the color of level i of `count` levels on the background of `look`: levelColor() with Coloring::cell,

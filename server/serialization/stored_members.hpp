@@ -26,15 +26,14 @@
 //
 // - member(number, value) or member(number, value, range): visits a member. `range` is the range of a floating-point
 //   number, or of all numbers in a list. A record with a number outside the range is refused.
-// - memberAddedLater(…): does the same for a member that records of earlier versions lack. Its value then stays
-// unchanged.
+// - memberAddedLater(…): does the same for a member that records of earlier versions lack. When such a record is read,
+//   the value stays unchanged.
 // - rotation(number, value): visits a rotation: two quaternions, with the numbers `number` and `number` + 1.
-// - array(number, visitThem): visits members that are stored together, as an array of their own with the index
-//   `number`. visitThem(visit) visits these members.
+// - nestedArray(number, visitThem): visits members that are stored together, as an array of their own with the index
+//   `number` in the record. visitThem(visit) visits these members.
 // - object(number, value): visits a 4-D object. Only State has such a member.
 // - recomputableMember(value): visits a member of a 4-D object that is not stored, because it is computed when the
-// object
-//   is made. Messages between processes can contain such a member (see slicing/object_bytes.cpp).
+//   object is made. Messages between processes can contain such a member (see slicing/object_bytes.cpp).
 
 #include <cstddef>
 #include <type_traits>

@@ -71,7 +71,8 @@ Result<CellTypeList> findCellTypes(std::string_view text, const geometry::Object
         if (object.cellTypes[type].name == text) named.push_back(type);
     }
     if (!named.empty()) return named;
-    // `text` may be another name of the same shape: "7-gonal prism" for "heptagonal prism".
+    // `text` may be another name of the solid that `object` calls by its usual name: "7-gonal prism" for "heptagonal
+    // prism".
     if (const auto words = text::lowerCaseWords(text); !words.empty()) {
         const auto solid = polytopes::solidNamed(words);
         if (solid && std::holds_alternative<polytopes::Solid>(*solid)) {

@@ -18,9 +18,9 @@ using CellTypeList = std::vector<std::uint32_t>;
 Result<CellTypeList> parseCellTypes(std::string_view text);
 
 /// Returns the cell types of `object` that `text` selects, at least one. `text` is a list of numbers as in
-/// parseCellTypes(), or one name. A name, such as "hexagonal prism", selects all cell types with this name. Errors:
-/// `bad_expression` if `text` is neither a list nor a name; `out_of_range` if the object has no cell type with one of
-/// the numbers.
+/// parseCellTypes(), or one name. A name, such as "hexagonal prism", selects all cell types with this name or, if there
+/// are none, with another name of the same solid. Errors: `bad_expression` if `text` is neither a list nor such a name;
+/// `out_of_range` if the object has no cells, or no cell type with one of the numbers.
 Result<CellTypeList> findCellTypes(std::string_view text, const geometry::ObjectInfo& object);
 
 /// hide() returns `filter`, changed so that the cell types in `changed` are hidden. fade() makes these cell types faded

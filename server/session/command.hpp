@@ -28,7 +28,7 @@
 
 namespace oval4d::session {
 
-/// The command that a key press triggers.
+/// The command that executes the action of a pressed key.
 struct KeyPress {
     static constexpr std::string_view kMessageType = "key";
     std::string key;  ///< the value of KeyboardEvent.key in a browser, such as "y", "K", "2" or " "
@@ -58,8 +58,8 @@ BOOST_DESCRIBE_STRUCT(TurnToward, (), (element, number, immediately))
 /// A finer resolution level of a multiscale image. The level replaces the coarser level that is shown.
 struct FinerImageLevel {
     std::uint32_t level = 0;  ///< the index of the level in the image; 0 is the finest
-    /// The initial level value (isovalue) of the field at the coarser resolution. The finer field gets the same value,
-    /// so that a session that shows initial values keeps them.
+    /// The initial isovalue of the field at the coarser resolution. The finer field gets the same initial isovalue, so
+    /// that a session that shows this isovalue keeps showing it.
     double initialLevel = 0;
     bool operator==(const FinerImageLevel&) const = default;
 };
@@ -106,7 +106,8 @@ struct LoadObject {
     bool isArrayInFiles() const { return file || folder || !series.empty() || !dataName.empty(); }
     bool operator==(const LoadObject&) const = default;
 };
-/// A member of LoadObject that says how to read an object, with its name in messages and in the queries of uploads.
+/// A member of LoadObject that says how to read an object, and the name of this member in messages and in the queries
+/// of uploads.
 struct LoadTextMember {
     std::string_view name;
     std::string LoadObject::* member;

@@ -36,9 +36,9 @@ Words splitWords(std::string_view line) {
     }
 }
 
-// Joins words that are separated by blanks but belong together. A word is joined to the word before it in three cases:
-// the word before ends with a character in `separators`, the word begins with such a character, or the word is the unit
-// of a number. Examples are "highlight=cell: 3" and "30 °". All words must be views into the same string.
+// Joins words that are separated by blanks but belong together. A word is joined to the word before it if that word
+// ends with a character in `separators`, if the word itself begins with such a character, or if it is the unit of a
+// number. Examples are "highlight=cell: 3" and "30 °". All words must be views into the same string.
 Words joinedWords(const Words& words, std::string_view separators) {
     Words joined;
     for (const std::string_view word : words) {
@@ -79,8 +79,9 @@ Result<Command> parseFormulaCommand(std::string_view rest, const Words& /*words*
     return Command{std::move(load)};
 }
 
-// Parses the command "region". The shown field is a region of a larger array. "region 0,1,0,1,0,1,0,5" loads another
-// region of this array, and "region all" the whole array.
+// Parses the command "region". The shown field must be an array in the server's data folder, or a region of one.
+// "region 0,1,0,1,0,1,0,5" loads this region of the array: the ranges of x, y, z and w. "region all" loads the whole
+// array.
 Result<Command> parseRegionCommand(std::string_view rest, const Words& /*words*/, const State& state) {
     const fields::Field* const field = slicing::fieldIn(state.source);
     if (field == nullptr || !field->source) {
@@ -123,7 +124,7 @@ Result<Command> parseRotateCommand(std::string_view /*rest*/, const Words& given
     const Words words = joinedWords(given, ",");
     if (words.empty())
         return errorWith(ErrorCode::bad_expression, "rotate needs planes and angles, such as rotate xw,yz pi/8 pi/5");
-    // Without angles on the line, use the angles alpha and beta of the rotation keys.
+    // If the line has no angles, use the angles alpha and beta of the rotation keys.
     const std::string alpha = text::shortestDecimal(state.alpha) + "rad";
     const std::string beta = text::shortestDecimal(state.beta) + "rad";
     Words angles(words.begin() + 1, words.end());
@@ -223,7 +224,8 @@ Result<Command> parseWithoutArguments(std::string_view rest, const Words& /*word
     return Command{C{}};
 }
 
-// Parses the command "play", which starts to move the focus to and fro. "play 2" does so at twice the normal speed.
+// Parses the command "play", which starts to move the focus to and fro. "play 2" also sets the speed, to twice the
+// normal speed.
 Result<Command> parsePlayCommand(std::string_view rest, const Words& /*words*/, const State& /*state*/) {
     ChangeSettings set;
     if (!rest.empty()) {

@@ -46,7 +46,7 @@ using text::isLetter;
 // The value of a part of an expression, with information about units in this part.
 struct ValueWithUnit {
     double value = 0;               // in degrees if isInDegrees is true; otherwise in radians if it is an angle
-    double plain = 0;               // the sum of those terms that are numbers without units
+    double plain = 0;               // the sum of those terms of the part that are numbers without units
     bool isPlain = false;           // whether `plain` is the whole value, so that all terms are numbers without units
     bool hasUnit = false;           // whether this part contains a unit
     bool isInDegrees = false;       // whether the unit is degrees and `value` is still in degrees
@@ -119,8 +119,8 @@ class ExpressionParser {
         const ValueWithUnit exponent = signedPower();
         return productOf(base, exponent, std::pow(base.value, exponent.value));
     }
-    // Returns the product, quotient or power of the terms `a` and `b`, where `value` is the numeric result. Throws
-    // SyntaxError if both terms have a unit.
+    // Returns the product, quotient or power of the terms `a` and `b`, with the unit that one of them has. `value` is
+    // the number that the caller has computed for it. Throws SyntaxError if both terms have a unit.
     ValueWithUnit productOf(const ValueWithUnit& a, const ValueWithUnit& b, double value) {
         if (a.hasUnit && b.hasUnit)
             failAt(std::max(a.unitAt, b.unitAt), "a product has one unit, which is that of all of it");

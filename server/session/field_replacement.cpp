@@ -20,8 +20,8 @@ namespace {
 using FieldsByOriginal = std::map<const void*, slicing::Object>;
 
 // If `state` shows the field `before`, replaces this field by `after` (see replaceField()) and returns true. Otherwise
-// returns false. `images` contains the transformed fields made so far. States with the same frame of reference share a
-// field.
+// returns false. `images` contains the transformed fields made so far, and gets those that are missing, so that states
+// with the same frame of reference share a field.
 bool replaceInState(State& state, const slicing::Object& before, const slicing::Object& after, FieldReplacement how,
                     FieldsByOriginal& images) {
     if (state.source != before) return false;

@@ -15,8 +15,8 @@ State withOrbit(State state, const scene::CameraOrbit& orbit) {
     return state;
 }
 
-// Returns whether two states are equal apart from the camera. Different transformations of one object to the same frame
-// of reference count as equal.
+// Returns whether two states are equal apart from the camera. If State::source and the frame of reference are equal,
+// State::object counts as equal, even if the object was transformed to this frame twice.
 bool differOnlyInCamera(const State& a, const State& b) {
     State compared = withOrbit(a, b.look.orbit);
     if (a.source == b.source && a.referenceFrame == b.referenceFrame) compared.object = b.object;
@@ -31,7 +31,7 @@ bool isNewUndoStep(State before, const State& next) {
     return !differOnlyInCamera(before, next);
 }
 
-// Appends `state` to `steps`. Replaces the last step if it equals `state` apart from the camera.
+// Appends `state` to `steps`. If the last step equals `state` apart from the camera, `state` replaces it.
 template <typename Steps>
 void addStep(Steps& steps, const State& state) {
     if (!steps.empty() && differOnlyInCamera(steps.back(), state)) steps.pop_back();

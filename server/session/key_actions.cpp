@@ -28,8 +28,9 @@ void moveFocus(State& state, int to) {
     state.playing = false;
 }
 
-// Returns the indices n (see HyperplaneSettings) of the first and the last hyperplane that intersect the object. Slices
-// of a point cloud are thick: then returns the hyperplanes nearest to the points with the least and the greatest w.
+// Returns the indices n (see HyperplaneSettings) of the first and the last hyperplane that intersect the object. For a
+// point cloud, whose slices are thick, returns the indices of the hyperplanes nearest to the points with the least and
+// the greatest w.
 std::pair<int, int> nonemptySlices(const State& state) {
     const auto [least, most] = slicing::rangeOfW(state.object, state.orientation);
     const double slack = slicing::kOnPlaneTolerance * slicing::infoOf(state.object).circumradius;
@@ -44,7 +45,8 @@ std::pair<int, int> nonemptySlices(const State& state) {
             static_cast<int>(std::floor((most + slack - offset) / spacing))};
 }
 
-// Moves the focus point by the spacing along an axis (0, 1 or 2 for x, y or z), within the bounds of the focus point.
+// Moves the focus point by the spacing along `axis` (0, 1 or 2 for x, y or z), upward or downward, but not beyond its
+// bounds.
 void moveFocusPoint(State& state, int axis, bool up) {
     const double reach = kMaxOffset * slicing::infoOf(state.object).circumradius;
     double& coordinate = state.look.focusPoint[axis];
@@ -86,7 +88,7 @@ Value nextChoice(Value value) {
     return at == choices.end() ? choices.begin()->value : at->value;
 }
 
-// Returns the actions with code of their own. allActions() makes all others from tables.
+// Returns the actions with code of their own. allActions() makes all others in loops over tables.
 std::vector<KeyAction> individualActions() {
     return {
         {"rotate", succeedAfter<[](ActionContext& c) {
@@ -135,7 +137,8 @@ std::vector<KeyAction> individualActions() {
     };
 }
 
-// Adds the actions that increase and decrease the number of a setting by a step (see KeySteps).
+// Adds to `actions` those that increase and decrease the number of a setting by a step (see KeySteps); none if no keys
+// change it.
 template <typename Row>
 void addSteps(const Row& setting, std::vector<KeyAction>& actions) {
     const auto add = [&](const std::string& ending, auto next) {

@@ -35,6 +35,7 @@ struct KeyAction {
 /// - for each row of scene::kParts, an action that shows or hides this part of the picture;
 /// - for each row of slicing::kElementKinds, an action that turns an element of this kind toward +w, and two actions
 ///   that highlight the next and the previous element of this kind;
+/// - for each of the axes x, y and z, two actions that move the focus point up and down along this axis;
 /// - for each view except the oval, an action that toggles between this view and the oval;
 /// - for each other setting that is an enumeration, an action with the name of the setting that selects the next
 ///   value;

@@ -62,7 +62,7 @@ Error errorOf(const FileError& error) {
     return {error.tooLarge ? ErrorCode::too_large : ErrorCode::bad_polytope, text_files::fileErrorText(error)};
 }
 
-// Appends a warning if the object has a new origin because it was far from the origin of its file.
+// Appends a warning if the object was far from the origin of its file, so that another point became its origin.
 void warnOfMove(const geometry::Centering& wanted, const glm::dvec4& originInFile, std::vector<std::string>& warnings) {
     if (wanted.choice != geometry::Centering::OriginChoice::automatic || originInFile == glm::dvec4(0)) return;
     std::string center;
@@ -221,7 +221,8 @@ std::optional<Error> checkBox(const fields::Box& box, const fields::Shape& shape
 // Returns a warning for each axis along which the box of a formula is so far from 0 that the surfaces get steps.
 // Functions take coordinates as 32-bit floats, and the distance between neighboring floats grows with their magnitude.
 std::vector<std::string> warningsOfRounding(const fields::Box& box) {
-    constexpr double kFewestFloats = 1000;  // in the range of the box along an axis
+    // The least number of neighboring floats in the box's range along an axis for which there is no warning.
+    constexpr double kFewestFloats = 1000;
     std::vector<std::string> warnings;
     for (int axis = 0; axis < 4; ++axis) {
         const auto farthest = static_cast<float>(std::max(std::abs(box.min[axis]), std::abs(box.max[axis])));
@@ -351,7 +352,7 @@ fields::FieldReadOptions optionsForReading(const LoadObject& load, const Limits&
     if (newFile) options.maxSamples = fields::kMaxSamples;
     options.newFile = std::move(newFile);
     options.region = load.region;
-    // A second array has only one level, so the first array gets no coarser level either.
+    // If there is a second array, no coarser level is shown first, because a second array has only one level.
     if (load.secondVariable.empty()) options.maxInFirstLevel = limits.maxFirstLevelBytes / sizeof(float);
     if (load.finer) options.level = load.finer->level;
     return options;
@@ -392,8 +393,8 @@ std::optional<Error> checkLoad(const LoadObject& load, const Limits& limits) {
         return Error{ErrorCode::bad_polytope,
                      text::inQuotes(load.name) + " is a name of the catalogue; choose another"};
     }
-    constexpr std::string_view kZarr = "zarr";  // a Zarr folder is recognized by its files, whatever format the command
-                                                // names
+    // A Zarr folder is recognized by its files, whatever format the command names.
+    constexpr std::string_view kZarr = "zarr";
     const bool detected = load.isArrayInFiles() && (load.format.empty() || load.format == kZarr);
     if (!detected && formatNamed(load.format) == nullptr) return unsupportedFormatError(load.format);
     const bool array = detected || isArrayFormat(load.format);

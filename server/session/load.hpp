@@ -27,7 +27,7 @@ struct ObjectWithWarnings {
 
 /// Reads the object that `load` specifies, in the calling process. The format is "off", "points", "cloud", "formula",
 /// or a format of arrays (one of fields::fieldFormats()). An array comes in Base64 or as an open file; its samples may
-/// have at most Limits::maxFieldBytes. Ignores the members `append`, `folder` and `dataName`. Errors:
+/// take at most Limits::maxFieldBytes of memory. Ignores the members `append`, `folder` and `dataName`. Errors:
 /// `unsupported_format`; `bad_polytope`, with the line number if one line is at fault; `too_large`; and the errors of
 /// readFormula() and readArray().
 Result<ObjectWithWarnings> readObject(const LoadObject& load, const Limits& limits);
@@ -79,7 +79,7 @@ std::string_view detectTextFormat(std::string_view text);
 /// polytope; `unsupported_format`.
 std::optional<Error> checkLoad(const LoadObject& load, const Limits& limits);
 
-/// Returns a name for the object in the file `fileName` that checkLoad() accepts. Long file names are shortened, and
+/// Returns a name that checkLoad() accepts, for the object in the file `fileName`. Long file names are shortened, and
 /// forbidden characters are replaced. If the catalogue of polytopes or the example fields contain the name, " (file)"
 /// is appended. Otherwise, a stored state would be restored with the object of the catalogue or with the example field.
 std::string objectNameFor(std::string_view fileName, const Limits& limits);

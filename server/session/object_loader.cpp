@@ -67,8 +67,8 @@ Result<ObjectWithWarnings> ObjectLoader::objectFrom(const LoadObject& load) {
     if (auto error = checkLoad(load, limits_)) return *error;
     if (load.format == kFormula) return *(fromFile_ = readFormula(load));  // never deferred, because it is fast
     if (mode_ == LoadingMode::deferred) {
-        // A load from the data folder is copied, because a command line creates a new one whenever its line is parsed.
-        // The copy is small. A load with data would be large.
+        // A LoadObject for the data folder is copied, because each parsing of a command line makes another one. The
+        // copy is small. A LoadObject with data may be large, and is not copied.
         ofDataFolder_ = load.dataName.empty() ? nullptr : std::make_shared<const LoadObject>(load);
         pending_ = ofDataFolder_ ? ofDataFolder_.get() : &load;
         return kLater;
@@ -153,9 +153,11 @@ void ObjectLoader::completePending(std::stop_token stop) {
 
 std::size_t ObjectLoader::memoryNeeded() const {
     constexpr std::size_t kFixed = 64U << 10U;
-    constexpr std::size_t kPerTextByte = 16;  // the numbers, a copy of them for repairs, the polytope, and its
-                                              // incidences
-    constexpr std::size_t kPerElement = 256;  // points, incidences, and temporary data while the polytope is built
+    // The memory per byte of a text file: for its numbers, a copy of them for repairs, the polytope, and its
+    // incidences.
+    constexpr std::size_t kPerTextByte = 16;
+    // The memory per element of a polytope: for points, incidences, and temporary data while the polytope is built.
+    constexpr std::size_t kPerElement = 256;
     if (const auto* load = std::get_if<const LoadObject*>(&pending_)) {
         // The samples are in memory twice: in the message from the process that reads the file, and in the field. A
         // sample of one byte in the file becomes a 32-bit float in both places.
@@ -176,7 +178,8 @@ std::size_t ObjectLoader::memoryNeeded() const {
     const auto* design = std::get_if<polytopes::PolytopeDesign>(&pending_);
     if (design == nullptr) return 0;
     const polytopes::ElementCounts counts = polytopes::elementCounts(*design);
-    constexpr std::size_t kPerHullPoint = 10240;  // memory for simplices, their neighbors, and the perturbed points
+    // The memory per point of a convex hull: for simplices, their neighbors, and the perturbed points.
+    constexpr std::size_t kPerHullPoint = 10240;
     return kFixed + kPerElement * (counts.vertices + counts.edges + counts.faces + counts.cells) +
            kPerHullPoint * design->recipe->hullPointCount();
 }
@@ -189,11 +192,14 @@ std::size_t ObjectLoader::loadedObjectMemory() const {
 }
 
 std::chrono::duration<double> ObjectLoader::estimatedDuration() const {
-    // Durations in seconds: kElement per element of a polytope that is built; kByte per byte of a file that lists the
-    // elements of a polytope or the points of a cloud; kPointByte per byte of a list of points whose convex hull is
-    // computed; kArrayByte per byte of an array; kTransformedElement per element of an object that is transformed;
-    // kSearch per search for critical values of w; kHullPoint per point of the convex hulls from which a polytope is
-    // built.
+    // Durations in seconds:
+    // - kElement: per element of a polytope that is built;
+    // - kByte: per byte of a file that lists the elements of a polytope or the points of a cloud;
+    // - kPointByte: per byte of a list of points whose convex hull is computed;
+    // - kArrayByte: per byte of an array;
+    // - kTransformedElement: per element of an object that is transformed;
+    // - kSearch: per search for critical values of w;
+    // - kHullPoint: per point of the convex hulls from which a polytope is built.
     constexpr double kElement = 3e-6, kByte = 5e-7, kPointByte = 3e-6, kArrayByte = 5e-9, kTransformedElement = 4e-8,
                      kSearch = 1, kHullPoint = 2e-4;
     double seconds = 2e-4;

@@ -52,7 +52,7 @@ CriticalSearchArguments criticalSearchArguments(const State& state);
 ///
 /// needsLoading() calls the functions to find what a command needs. The caller then calls completePending(), on any
 /// thread, and needsLoading() again, until nothing is pending. Results stay available, even if a cache drops them in
-/// the meantime. A loader can be moved at any time.
+/// the meantime. A loader can be moved (std::move) at any time.
 class ObjectLoader {
   public:
     /// Whether the loader does slow work at once, or in completePending().
@@ -73,16 +73,16 @@ class ObjectLoader {
     Result<ObjectWithWarnings> objectFrom(const LoadObject& load);
 
     /// Returns `source` in the coordinates of the frame of reference `frame` (see slicing::transformedTo()). Objects
-    /// with at most 1000 elements are transformed at once, even with LoadingMode::deferred. With this mode, the loader
-    /// keeps the results, so it transforms an object to a frame only once.
+    /// with at most 1000 elements are transformed at once, even with LoadingMode::deferred. With LoadingMode::deferred,
+    /// the loader keeps the results, so it transforms an object to a frame only once.
     Result<slicing::Object> transformedTo(const slicing::Object& source, const geometry::ReferenceFrame& frame);
     /// Returns the array `field`, extended by the time steps of `added` (see session::appendTimeSteps()).
     Result<slicing::Object> fieldWithTimeSteps(const slicing::Object& field, const slicing::Object& added);
 
     /// Returns the critical values of w of the object that the state shows (see slicing::findCriticalSections()). A
-    /// deferred search gives the result for the state at the first call, even if the object has turned since. Only
-    /// searches in fields and in objects with more than 1000 elements are deferred. Error: `canceled` if the search was
-    /// stopped.
+    /// deferred search gives the result for the state of the first call, even if the object has turned before the next
+    /// call. Only searches in fields and in objects with more than 1000 elements are deferred. Error: `canceled` if the
+    /// search was stopped.
     Result<slicing::CriticalSectionsPtr> criticalSections(const State& state);
 
     /// Returns whether an object or a search is pending. If so, a function of the loader has failed only because its
@@ -146,8 +146,8 @@ class ObjectLoader {
     slicing::Object searched_;  // the object for which `critical_` was computed
     std::optional<Result<slicing::CriticalSectionsPtr>> critical_;
     // Objects in the coordinates of a frame of reference. A command may change both the object and the frame, so it
-    // needs an object in the old and in the new frame. There are more than two entries only if the session changes in
-    // the meantime.
+    // needs an object in the old and in the new frame. There are more than two entries only if the session changes
+    // between the calls of needsLoading().
     std::vector<ObjectInReferenceFrame> objectsInFrames_;
 };
 

@@ -21,7 +21,8 @@ namespace oval4d::session {
 
 namespace {
 
-// Returns the query parameters that name the object. Error: `unknown_polytope` if an address cannot contain the object.
+// Returns the query parameters that say which object is shown. Error: `unknown_polytope` if an address cannot contain
+// the object.
 Result<QueryParameters> objectParameters(const slicing::Object& object) {
     const geometry::ObjectInfo& info = slicing::infoOf(object);
     const fields::Field* const field = slicing::fieldIn(object);
@@ -181,7 +182,7 @@ Result<QueryParameters> queryFromState(const State& state, ObjectLoader& loader)
         query->emplace_back("rotate", rotation);
     State fresh = initialState();
     if (auto done = replaceObject(fresh, state.source, loader); !done) return done.error();
-    // If the query changes the number of slices or the frame of reference, stateFromQuery() changes the spacing. So
+    // If a query contains the number of slices or the frame of reference, stateFromQuery() adapts the spacing to it. So
     // such a query must contain the spacing, even if this is the initial one.
     const bool isSpaced = state.slices.count == fresh.slices.count && state.referenceFrame == fresh.referenceFrame;
     const QueryParameters initial = settingTexts(settingsOf(fresh));

@@ -14,9 +14,11 @@ using QueryParameters = std::vector<std::pair<std::string, std::string>>;
 
 /// Parses a query without its question mark. Returns an empty optional if a percent escape is malformed. Leaves out the
 /// parameters that protocol/address.json lists as ignored.
+///
 /// Decodes percent escapes. In values, "+" means a blank, but stays a plus sign between two operands of arithmetic.
 /// Also undoes damage by mailers and forums: "&amp;" in place of "&", and a second round of escapes (%2520 in place of
 /// %20).
+///
 /// Accepts all other characters. Browsers send ^, |, {, }, [, ], ` and \ unescaped in queries, although RFC 3986
 /// excludes them. Strict parsers such as Boost.URL therefore refuse addresses like "?formula=x^2-y".
 std::optional<QueryParameters> parseQuery(std::string_view text);

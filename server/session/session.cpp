@@ -33,8 +33,8 @@ namespace {
 
 using VoidResult = Result<std::monostate>;
 
-// Combines the rotations of an undo step into one turn, from the state `before` the step to `next`. `next.lastTurn` is
-// the newest rotation, from `current` to `next`. Returns `before.lastTurn` if the rotations cancel out.
+// Combines the rotations of an undo step into one turn, from the state `before` the step to `next`. `current` is the
+// state before the newest rotation, which is `next.lastTurn`. Returns `before.lastTurn` if the rotations cancel out.
 std::optional<geometry::RotationAngles> turnOfStep(const State& before, const State& current, const State& next) {
     constexpr double kSame = 1e-9;
     const geometry::Rotation whole = next.orientation * before.orientation.inverse();
@@ -78,8 +78,8 @@ geometry::Rotation randomRotation(std::optional<std::uint64_t> seed) {
     return {left, quaternion()};
 }
 
-// A class that computes the outcome of a command that may need an object or critical values of w from the loader. Does
-// not change the session.
+// Computes the outcome of a command that may need an object or critical values of w from the loader. Does not change
+// the session.
 class CommandOutcomeComputer {
   public:
     CommandOutcomeComputer(const Session& session, const Limits& limits, ObjectLoader& loader)
@@ -345,7 +345,7 @@ double spanningSpacing(const slicing::Object& object, int count) {
 bool needsLoading(const Session& session, const Command& command, const Limits& limits, ObjectLoader& loader,
                   ComputedOutcome& outcome) {
     outcome = std::visit(CommandNeedsFinder(session, limits, loader), command);
-    if (loader.isPending()) outcome.reset();  // it only contains the error that something is missing
+    if (loader.isPending()) outcome.reset();  // `outcome` has only the error that something is missing
     return loader.isPending();
 }
 

@@ -82,17 +82,18 @@ struct State {
     HyperplaneSettings slices;
     scene::Look look;
     bool turning = false;  ///< whether the object turns continuously, by repeating `lastTurn`
-    std::optional<geometry::RotationAngles>
-        lastTurn;  ///< the last rotation, which the keys '.' and space repeat; empty if none
+    /// The last rotation, which the keys '.' and space repeat; empty if there is none.
+    std::optional<geometry::RotationAngles> lastTurn;
     /// The turn that the command TurnToward has started, until it reaches its goal in advanceMotionBy(). Empty if there
     /// is none, and always empty while `turning` is true.
     std::optional<OngoingTurnToward> ongoingTurnToward;
-    /// Whether advanceMotionBy() moves the focus to and fro between the lowest and the highest w of the object. Ends
-    /// when a command sets the focus or the offset.
+    /// Whether advanceMotionBy() moves the focus to and fro between the lowest and the highest w of the object. Becomes
+    /// false when a command sets the focus or the offset.
     bool playing = false;
     /// The direction in which the focus moves, or will move once `playing` becomes true.
     bool playsDownward = false;
-    /// The speed of playing. At speed 1, the focus moves from the lowest to the highest w in kSecondsFromEndToEnd.
+    /// The speed of playing. At speed 1, the focus moves from the lowest to the highest w in kSecondsFromEndToEnd
+    /// seconds.
     double playSpeed = 1;
 
     /// Returns pointers to `source` and `object`. Both are the same object if `referenceFrame` is the default frame.
@@ -149,10 +150,10 @@ struct Limits {
     /// The maximum number of vertices of a loaded polytope, of points in a list or a point cloud, and of vertices of a
     /// polytope built from its name. Polytopes of the catalogue may be larger.
     std::size_t maxVertices = 100'000;
-    std::size_t maxHullCells = 100'000;       ///< the maximum number of cells of the convex hull of a list of
-                                              ///< points
-    std::size_t maxFieldBytes = 256U << 20U;  ///< the maximum memory of an array's samples, as 32-bit floats, in
-                                              ///< bytes
+    /// The maximum number of cells of the convex hull of a list of points.
+    std::size_t maxHullCells = 100'000;
+    /// The maximum memory of an array's samples, as 32-bit floats, in bytes.
+    std::size_t maxFieldBytes = 256U << 20U;
     /// The maximum memory, in bytes, of the level of a multiscale image that is shown first.
     std::size_t maxFirstLevelBytes = 64U << 20U;
 };
@@ -220,7 +221,8 @@ Result<std::monostate> apply(Session& session, const Command& command, const Lim
 
 /// The speed of continuous turning: how many times per second the last rotation is repeated.
 inline constexpr double kRotationRepeatsPerSecond = 6;
-/// The time in which the focus moves from the lowest w of the object to the highest, if State::playSpeed is 1.
+/// The time, in seconds, in which the focus moves from the lowest w of the object to the highest, if State::playSpeed
+/// is 1.
 inline constexpr double kSecondsFromEndToEnd = 8;
 /// Advances all motion by `seconds`. First the object turns, continuously or toward an element, until its goal. Then
 /// the focus plays between the lowest and the highest w of the turned object; at an end, it stops at this end and

@@ -45,7 +45,7 @@ struct NumberRangeRule {
     std::string_view unit{};  ///< the unit that the error message states after the range, such as " circumradii"
     KeySteps keys = {};
 };
-/// The rule of a setting that applySet() checks and changes with specific code, not with the table.
+/// The rule of a setting that applySet() checks and changes with code of its own, not by a rule in the table.
 struct CheckedByApplySetRule {};
 
 /// The value of Setting::ofState for settings that are not read from a state. Such settings change other settings or
@@ -54,14 +54,14 @@ struct NoStateValue {};
 
 /// The occasion on which a setting returns to its initial value.
 enum class ResetOccasion : std::uint8_t {
-    never,                       ///< never; but a new object of another size changes the spacing in proportion
+    never,  ///< never (but a new object of another size changes the setting `spacing` in proportion)
     by_another_object,           ///< when another object is shown, because the value belongs to the old object
     by_reset_or_another_object,  ///< when another object is shown, and after the command `reset`
 };
 
-/// A setting. `ofSet` returns a reference to the setting's value in a ChangeSettings (a std::optional). `ofState`
-/// returns the setting's value in a State: by reference if the value is one member of the State, else by value. If by
-/// value, the rule must be CheckedByApplySetRule.
+/// A setting. `ofSet` takes a ChangeSettings, and returns a reference to the setting's value in it (a std::optional).
+/// `ofState` takes a State, and returns the setting's value in it: by reference if the value is one member of the
+/// State, else by value. If by value, the rule must be CheckedByApplySetRule.
 template <typename OfSet, typename OfState, typename Rule>
 struct Setting {
     static constexpr bool kIsInState = !std::is_same_v<OfState, NoStateValue>;
@@ -94,7 +94,8 @@ void forEachSetting(const Visitor& visit) {
         return [members...](auto& state) -> auto& { return (state.*....*members); };
     };
     using enum ResetOccasion;
-    // Visits a setting that applySet() checks and changes with specific code. `member` is its member of ChangeSettings.
+    // Visits a setting that applySet() checks and changes with code of its own. `member` is its member of
+    // ChangeSettings.
     const auto visitWithOwnCode = [&](const SettingName& name, auto ChangeSettings::* member, auto ofState,
                                       ResetOccasion setBack, bool forFields = false) {
         const auto ofSet = [member](auto& set) -> auto& { return set.*member; };

@@ -220,7 +220,8 @@ struct SettingValueFormatter {
 Result<std::monostate> parseSetting(std::string_view name, std::string_view written, ChangeSettings& set) {
     if (name == kPolytope) return SettingValueParser{name, written}(set.object);
     const std::string_view given = text::trimmed(written);
-    // People call the view `strip` a row, as its key does; the table of views has no aliases, because views are stored.
+    // Users call the view `strip` "row", as its key does. "row" is no alias in kViews, because tables of stored
+    // enumerators must not have aliases (see text::hasNoAliases()).
     const std::string_view value = name == "view" && given == "row" ? "strip" : given;
     std::optional<Result<std::monostate>> parsed;
     forEachSetting([&](const auto& setting) {

@@ -151,8 +151,8 @@ Result<std::monostate> setFieldSettings(State& state, const ChangeSettings& set)
     return std::monostate{};
 }
 
-// Resets the settings that `occasion` resets to their values in `initial`. Omits settings that are not stored in one
-// member of State, such as `point`.
+// Sets the settings that are reset on `occasion` back to their values in `initial`. Omits settings that are not stored
+// in one member of State, such as `point`.
 void resetSettings(State& state, ResetOccasion occasion, const State& initial) {
     forEachSetting([&]<typename Row>(const Row& setting) {
         if constexpr (Row::kIsInState) {
@@ -178,7 +178,7 @@ bool isValidTransferFunction(std::span<const slicing::FogControlPoint> points) {
 }
 
 slicing::FieldSettings initialFieldSettings(const fields::Field& field) {
-    // Clamp the level. In an array, the initial level lies midway between the least and the greatest sample, and one of
+    // Clamp the level. In an array, the initial level lies midway between the least and the greatest sample. One of
     // these may be a huge number that marks missing samples.
     const double level = std::clamp(field.initialLevel, -slicing::kMaxLevel, slicing::kMaxLevel);
     return {{level}, field.initialInside};
@@ -193,7 +193,7 @@ Result<std::monostate> replaceObject(State& state, slicing::Object source, Objec
     const double spacing =
         state.slices.spacing * (slicing::initialSliceExtent(object) / slicing::initialSliceExtent(state.object));
     state.slices.spacing =
-        std::clamp(spacing, kMinSpacing * radius, kMaxSpacing * radius);  // rounding errors may exceed the bounds
+        std::clamp(spacing, kMinSpacing * radius, kMaxSpacing * radius);  // clamped because of rounding errors
     state.ongoingTurnToward.reset();
     state.playing = false;
     const fields::Field* field = slicing::fieldIn(object);
@@ -205,7 +205,7 @@ Result<std::monostate> replaceObject(State& state, slicing::Object source, Objec
     State initial = initialState();
     if (field != nullptr) initial.look.field = initialFieldSettings(*field);
     resetSettings(state, ResetOccasion::by_another_object, initial);
-    state.look.focusPoint = initial.look.focusPoint;  // setBack() has omitted the setting `point`
+    state.look.focusPoint = initial.look.focusPoint;  // resetSettings() has omitted the setting `point`
     state.source = std::move(source);
     state.object = std::move(object);
     return std::monostate{};
@@ -377,7 +377,7 @@ Result<std::monostate> turnToward(State& state, const TurnToward& command) {
     state.ongoingTurnToward.reset();
     constexpr double kRadiansPerSecond = std::numbers::pi / 2;
     const double seconds = way.largerAngle() / kRadiansPerSecond;
-    constexpr double kShortest = 1e-3;  // in seconds; a shorter turn is not visible
+    constexpr double kShortest = 1e-3;  // in seconds; a shorter turn would not be visible, so it is not animated
     if (command.immediately || seconds < kShortest) {
         state.orientation = goal;
     } else {

@@ -9,7 +9,7 @@
 
 namespace oval4d::session {
 
-/// The maximum absolute value of a rotation's angle, in radians. Larger doubles are imprecise as angles.
+/// The maximum absolute value of a rotation's angle, in radians. Doubles represent larger angles too imprecisely.
 inline constexpr double kMaxAngle = 1e6;
 
 /// Returns whether these control points are valid as FieldSettings::fog. There may be none, or kMinFogControlPoints …
@@ -35,9 +35,9 @@ Result<std::monostate> replaceObject(State& state, slicing::Object source, Objec
 
 /// Keeps the settings of a field when `load` has replaced one part of an array in the data folder by another part, or
 /// by the whole array, under the same name. `before` is the state that shows the old part. `next` is the state after
-/// replaceObject(). `next` gets the field settings and the hidden and faded cell types of `before`. Levels that still
-/// have their initial values are not kept, because each part has initial levels of its own. Does nothing after any
-/// other load.
+/// replaceObject(). `next` gets the field settings of `before` and, if both objects have the same cell types, its
+/// hidden and faded cell types. Levels that still have their initial values are not kept, because each part has initial
+/// levels of its own. Does nothing after any other load.
 void carryOverFieldSettings(const State& before, const LoadObject& load, State& next);
 
 /// Resets the orientation to the initial one, and ends all motion.
@@ -67,8 +67,8 @@ void setSliceCount(State& state, int count);
 Result<std::monostate> applySet(State& state, const ChangeSettings& set, const LoadedObjects& loaded,
                                 const Limits& limits, ObjectLoader& loader);
 
-/// Returns the settings of a state. applySet() with these settings makes another state with the same object equal to
-/// `state`, except for the orientation, the last rotation and the motion.
+/// Returns the settings of a state. If applySet() applies them to another state with the same object, this state
+/// becomes equal to `state`, except for the orientation, the last rotation and the motion.
 ChangeSettings settingsOf(const State& state);
 
 /// Returns the error `out_of_range` unless the angles of a rotation are finite and within ±kMaxAngle.
@@ -94,8 +94,8 @@ Result<std::monostate> turnToward(State& state, const TurnToward& command);
 /// this kind, or if all of them are hidden.
 Result<std::monostate> highlightNeighbor(State& state, slicing::ElementKind kind, bool forward);
 
-/// Moves the focus to `w`, in the object's coordinates. Sets the focus to the index of the slice nearest to `w` for the
-/// offset 0, and the offset to the difference. The caller must ensure |w| ≤ kMaxOffset circumradii.
+/// Moves the focus to `w`, in the object's coordinates. Sets the focus to w / spacing, rounded to an integer within
+/// ±kMaxFocus, and the offset to the rest, w − focus · spacing. The caller must ensure |w| ≤ kMaxOffset circumradii.
 void moveFocusTo(State& state, double w);
 
 /// Moves the focus upward, or downward if `upward` is false, to the next w at which the section changes its type. In a

@@ -19,7 +19,7 @@ namespace oval4d::slicing {
 /// misprediction takes longer than the work that the branch would avoid.
 class ActiveElementList {
   public:
-    /// An element, and the index of the first hyperplane above it that no longer cuts it.
+    /// An element, and the index of the first hyperplane that no longer cuts it, because it lies above the element.
     struct CutElement {
         std::uint32_t number;  ///< the index of the edge, 2-face or cell in the polytope
         std::int32_t to;  ///< the end of the range [from, to) of the indices of the hyperplanes that cut the element
@@ -60,8 +60,8 @@ class ActiveElementList {
         std::int32_t from;
     };
 
-    // Removes the active elements that the hyperplane with the index `step` does not cut: those whose range [from, to)
-    // ends at `step` or below.
+    // Removes the active elements that the hyperplane with the index `step` no longer cuts: those whose range [from,
+    // to) ends at `step` or below.
     void removeEnded(int step);
 
     std::vector<UnsortedElement> unsorted_;

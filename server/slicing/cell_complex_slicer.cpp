@@ -62,8 +62,8 @@ bool CellComplexSlicer::cutConvex(const polytopes::Polytope& polytope, SliceSet&
 
 // Finds the hyperplanes that touch the polytope (its supporting hyperplanes): each contains at least one vertex, and
 // all other vertices lie in it or on one side of it. Cuts the slices in these hyperplanes by cutGeneral(), and sets
-// touching_ to the slices. Returns false if there are more than two such hyperplanes, which happens only if hyperplanes
-// are closer together than the tolerance.
+// their entries in touching_ to these slices. Returns false if there are more than two such hyperplanes, which happens
+// only if hyperplanes are closer together than the tolerance.
 bool CellComplexSlicer::cutTangentPlanes(const geometry::CellComplex& complex, SliceSet& out) {
     const std::int32_t firstAbove = *std::min_element(upTo_.begin(), upTo_.end());
     const std::int32_t lastBelow = *std::max_element(below_.begin(), below_.end());
@@ -176,9 +176,9 @@ void CellComplexSlicer::cutEdges(const geometry::CellComplex& complex, SliceSet&
 // hyperplanes.
 void CellComplexSlicer::cutFaces(const geometry::CellComplex& complex, SliceSet& out) {
     const auto faces = static_cast<std::uint32_t>(complex.faces.size());
-    // upTo_[v] is either below_[v] or below_[v] + 1. Therefore, for the sum s = below_[v] + upTo_[v], below_[v] is ⌊s /
-    // 2⌋ and upTo_[v] is ⌈s / 2⌉. So the least and the greatest s of a 2-face's vertices give the least below_ and the
-    // greatest upTo_.
+    // upTo_[v] is either below_[v] or below_[v] + 1. Therefore, for the sum s = below_[v] + upTo_[v], below_[v] is
+    // ⌊s/2⌋ and upTo_[v] is ⌈s/2⌉. So the least and the greatest s of a 2-face's vertices give the least and the
+    // greatest below_ and upTo_.
     rankSum_.resize(below_.size());
     for (std::size_t v = 0; v < below_.size(); ++v) rankSum_[v] = below_[v] + upTo_[v];
     up_.resize(out.planes.count);
@@ -425,10 +425,12 @@ void CellComplexSlicer::traceCell(const geometry::CellComplex& complex, std::uin
     }
 }
 
-// Adds the slice faces that are 2-faces lying in a hyperplane. Such a 2-face is a face of the slice in two cases: if
-// exactly one of its two cells stands on it, above the hyperplane, or if one of its cells lies in the hyperplane, on
-// top of the complex. In both cases, the slice face has the orientation that the 2-face has in this one cell. If the
-// complex only touches the hyperplane in this 2-face, the 2-face is the whole slice.
+// Adds the slice faces that are 2-faces lying in a hyperplane. Such a 2-face is a face of the slice in two cases:
+// - Exactly one of its two cells stands on it, above the hyperplane.
+// - One of its cells lies in the hyperplane, on top of the complex.
+//
+// In both cases, the slice face has the orientation that the 2-face has in this one cell. If the complex only touches
+// the hyperplane in a 2-face, this 2-face is the whole slice.
 void CellComplexSlicer::addFacesInHyperplanes(const geometry::CellComplex& complex, const SliceSet& out) {
     touchingFaces_.clear();
     bounded_.assign(out.planes.count, false);

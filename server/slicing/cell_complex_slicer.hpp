@@ -55,8 +55,7 @@ class CellComplexSlicer {
     //
     // `edge` is kNone if no slice edge results, for example because the segment shrinks to a point. Before
     // numberEdges(), any other value of `edge` is the edge of the complex to which the segment moves, or kNewEdge if
-    // the segment moves to no edge of the complex. numberEdges() replaces the value by the index of the slice edge that
-    // the segment becomes.
+    // there is no such edge. numberEdges() replaces the value by the index of the slice edge that the segment becomes.
     struct FaceCrossing {
         std::int32_t plane;
         std::uint32_t up, down;
@@ -152,10 +151,11 @@ class CellComplexSlicer {
     // around the section, and nextEdge_ the slice edge that leads to this next slot. next_ is kNone for a slot that has
     // no next slot, or that has already been traced.
     std::vector<std::uint32_t> next_, nextEdge_;
-    // The slots (crossings of edges with hyperplanes) that have a next slot in the section of the current cell, each
-    // preceded by the index of its hyperplane. The tracing of loops starts at these slots.
+    // The slots (crossings of edges with hyperplanes) at which the tracing of loops starts: all those that have a next
+    // slot in the section of the current cell. Each slot is preceded by the index of its hyperplane.
     std::vector<std::pair<std::int32_t, std::uint32_t>> starts_;
-    // The 2-faces that lie in a hyperplane, where each may be the whole slice.
+    // The 2-faces that lie in a hyperplane and are not faces of a larger slice there. Each may be the whole slice (see
+    // addFacesInHyperplanes()).
     std::vector<std::uint32_t> touchingFaces_;
     std::vector<bool> bounded_;  // per hyperplane: whether a 2-face that lies in the hyperplane is a slice face
     std::vector<std::optional<bool>> upward_;  // per cell: the result of hasUpwardNormal(); empty if not yet computed
@@ -165,7 +165,7 @@ class CellComplexSlicer {
     // Per hyperplane: the index at which the next vertex, edge or face (cursor_) or corner (cornerCursor_) is written.
     std::vector<std::uint32_t> cursor_, cornerCursor_;
     // Per hyperplane: the slot (crossing of an edge) where the vertex loop of a convex 2-face rises through the
-    // hyperplane (up_), and the slot where the loop descends (down_)
+    // hyperplane (up_), and the slot where the loop descends through it (down_).
     std::vector<std::uint32_t> up_, down_;
     // The edges of the current 2-face that lie in the hyperplane of its lowest vertices. Each entry has the slice
     // vertices at the two ends of an edge, in ascending order, and then the index of the edge. The entries are sorted.

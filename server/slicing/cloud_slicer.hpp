@@ -15,8 +15,9 @@ namespace oval4d::slicing {
 /// from 0.06 for few points to 0.015 for many.
 double relativeBallRadius(const geometry::PointCloud& cloud);
 
-/// Returns the opacity of the ball that shows a point of a cloud: from 1 for a point in the hyperplane to 0.2 for a
-/// point at the distance 1 or more from it. The unit of `distance` is half the spacing of the hyperplanes.
+/// Returns the opacity of the ball that shows a point of a cloud. `distance` is the distance of the point from the
+/// hyperplane, in units of half the spacing. The opacity decreases linearly from 1 at the distance 0 to 0.2 at the
+/// distance 1, and is 0.2 beyond.
 inline float opacityAtDistance(double distance) { return static_cast<float>(1 - 0.8 * std::min(distance, 1.0)); }
 
 /// Slices point clouds. A slice contains the points from half a spacing below its hyperplane, included, to half a

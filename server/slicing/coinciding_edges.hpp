@@ -33,7 +33,7 @@ class CoincidingEdges {
     /// Returns whether any two edges coincide.
     bool anyCoincide() const { return any_; }
     /// Returns the least index in the group of edges that coincide with `edge`, including `edge` itself. Requires that
-    /// any() is true.
+    /// anyCoincide() is true.
     std::uint32_t representativeOf(std::uint32_t edge) {
         while (first_[edge] != edge) edge = first_[edge] = first_[first_[edge]];
         return edge;

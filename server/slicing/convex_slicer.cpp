@@ -9,8 +9,8 @@ namespace {
 
 // Returns whether slicing `polytope` by `planes` hyperplanes is faster on two cores than on one. A sweep sorts the
 // elements of the polytope once and writes them for each hyperplane. So its time is proportional to the number of
-// elements times (the number of hyperplanes + a constant). If this product is at most kLarge, waking the other core
-// takes longer than the time that it saves.
+// elements times the sum of the number of hyperplanes and kSorting. If this product is at most kLarge, waking the other
+// core takes longer than the time that it saves.
 bool isWorthTwoCores(const polytopes::Polytope& polytope, int planes) {
     constexpr std::size_t kSorting = 40;  // sorting takes as long as writing the slices of this many hyperplanes
     constexpr std::size_t kLarge = 2'500'000;

@@ -38,8 +38,8 @@ class ConvexSlicer {
     struct HalfSweep {
         HyperplaneSweep sweep;
         std::vector<std::int32_t> below;  // per vertex: the number of hyperplanes of this half below it
-        SliceElementCounts
-            end;             // where the slices of this half end in the output; before sweep.cut(), where they begin
+        // Where the slices of this half end in the output; before sweep.cut(), where they begin.
+        SliceElementCounts end;
         bool sound = false;  // what the last call of sweep.begin() or sweep.cut() returned
     };
     bool cutInTwoSweeps(const polytopes::Polytope& polytope, PlanesBelowVertices planesBelow, SliceSet& out);

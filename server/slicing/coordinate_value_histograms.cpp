@@ -24,7 +24,7 @@ static_assert(CoordinateValueHistograms::kRows < kNoRow);
 // Returns the number of points at which `function` is evaluated. A slower function is evaluated at fewer points, so
 // that the evaluation always takes about the same time.
 std::size_t histogramPointCount(const fields::ScalarFunction& function) {
-    constexpr double kTime = 2e7;  // the time for all evaluations, in nanoseconds
+    constexpr double kTime = 2e7;  // the intended time for all evaluations of the function, in nanoseconds
     const double count = kTime / std::max(function.cost().value, 1.0);
     constexpr auto kLeast = static_cast<double>(CoordinateValueHistograms::kMinPoints);
     constexpr auto kMost = static_cast<double>(CoordinateValueHistograms::kMaxPoints);

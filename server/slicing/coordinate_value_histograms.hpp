@@ -27,7 +27,7 @@ namespace oval4d::slicing {
 /// valueRange(), and the last row for the least.
 ///
 /// The field is sampled at quasirandom points of the domain (see fields::writeQuasirandomPoints()). While only the
-/// rotation or the levels change, its function is not evaluated again. Reuses its memory between measurements.
+/// rotation or the levels change, its function is not evaluated again. Reuses its memory between calls of compute().
 class CoordinateValueHistograms {
   public:
     static constexpr int kPanel = 64;  ///< the number of columns for each axis

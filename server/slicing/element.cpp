@@ -356,7 +356,7 @@ std::string unitOfElementSize(const Object& object, const fields::Field& field,
             least = std::min(least, at);
             most = std::max(most, at);
         }
-        // Along an axis, the vertices, corners of the box, differ by the whole extent of the box or not at all.
+        // The vertices are corners of the box: along an axis, they differ by the whole extent of the box or not at all.
         if (most - least > (field.box.max[axis] - field.box.min[axis]) / 2)
             units.push_back(field.units.at(static_cast<std::size_t>(axis)));
     }

@@ -85,8 +85,8 @@ void FieldSlicer::slice(const fields::Field& field, const geometry::Rotation& or
     field.requireReadable();
 }
 
-// Returns the factor by which the lattice steps of fog must be enlarged, so that the number of samples is at most
-// maxFogSamples() and the time at most surfaceLimits().time.
+// Returns the factor, at least 1, by which the lattice steps of fog must be enlarged, so that there are at most
+// maxFogSamples() samples in all slices together, and sampling takes at most surfaceLimits().time.
 double FieldSlicer::fogCoarsening(const fields::Field& field, const SurfaceDetail& detail, const SliceSet& slices) {
     constexpr double kEnlarge = 1.05, kMost = 1e3, kPerPoint = 3;
     const double perPoint = field.function->cost().value + kPerPoint;

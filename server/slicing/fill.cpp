@@ -58,7 +58,8 @@ void FaceFiller::fillFace(const SliceSet& slices, std::size_t slice, std::uint32
     out.pieceBegin.push_back(static_cast<std::uint32_t>(out.cornerBegin.size() - 1));
 }
 
-// Sets sides_ to the sides of the loops of the current face. The corners of the loops are points_.
+// Sets sides_ to the sides of the loops of the current face, except horizontal ones. The corners of the loops are
+// points_.
 void FaceFiller::findLoopSides(const SliceSet& slices, std::uint32_t begin, std::uint32_t end) {
     const auto onPlane = [this](const glm::dvec3& p) {
         return glm::dvec2(glm::dot(p - faceFrame_.origin, faceFrame_.x), glm::dot(p - faceFrame_.origin, faceFrame_.y));

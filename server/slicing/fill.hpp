@@ -60,7 +60,8 @@ class FaceFiller {
                      std::size_t count = kNoLimit);
 
   private:
-    // A side of a loop, from its lower to its upper end, in the coordinates (x, y) of the plane of the face.
+    // A side of a loop, from its lower to its upper end, in the coordinates (x, y) of the plane of the face. Horizontal
+    // sides are left out.
     struct LoopSide {
         glm::dvec2 low, high;
         double slope;               // the slope of the side, dx/dy

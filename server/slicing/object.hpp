@@ -60,8 +60,8 @@ struct ObjectKindProperties {
     std::string_view noun;  ///< what messages call the object, such as "polytope"
     bool isPlural;          ///< whether `noun` is a plural
     SliceContent slices;    ///< what the slices are made of
-    /// Whether a slice contains all points from half a spacing below its hyperplane, included, to half a spacing above
-    /// it, not included; if false, a slice is the section by its hyperplane.
+    /// Whether slices are thick: a slice then contains all points from half a spacing below its hyperplane (included)
+    /// to half a spacing above it (not included). If false, a slice is the section by its hyperplane.
     bool slicesAreThick;
     bool sectionsHaveNames;  ///< whether SectionNamer names sections of the object
 };

@@ -189,7 +189,7 @@ fields::Field makeOrThrow(const fields::FieldDefinition& definition) {
 void writeObjectKind(const Object& object, ByteWriter& archive) { archive(static_cast<std::uint8_t>(object.index())); }
 
 // Reads the kind of an object. Returns an Object with a null pointer of this kind. Callers visit the result to choose
-// the function that reads the rest of the object, so that the code does not compile if a kind has no function. Throws
+// the function that reads the rest of the object. So the code does not compile if a kind has no such function. Throws
 // std::runtime_error if the kind is unknown.
 template <typename... Kinds>
 Object readObjectKind(ByteReader& archive, std::type_identity<std::variant<Kinds...>> /*kinds*/) {

@@ -11,10 +11,11 @@ namespace oval4d::slicing {
 
 namespace {
 
-// Lengths, as fractions of the size of the projection. They are large compared with ProjectedCells::kTinyShift.
-constexpr double kBesideLine =
-    1e-7;  // the distance of a tested line in a 2-face from a line that may bound visible parts of the 2-face
-constexpr double kShortest = 2e-6;  // parts of tested lines that are shorter than this are not tested
+// Lengths, as fractions of the size of the projection. They are large compared with ProjectedCells::kTinyShift. A line
+// in a 2-face is tested at the distance kBesideLine from a line that may bound visible parts of the 2-face. Parts of
+// tested lines that are shorter than kShortest are skipped.
+constexpr double kBesideLine = 1e-7;
+constexpr double kShortest = 2e-6;
 
 double crossProduct(const glm::dvec2& a, const glm::dvec2& b) { return a.x * b.y - a.y * b.x; }
 
@@ -272,7 +273,7 @@ bool OcclusionFinder::isSeenBeside(const glm::dvec2& from, const glm::dvec2& to)
     for (std::size_t i = 0; i < outline_.size(); ++i) {
         const glm::dvec2 corner = outline_[i], side = outline_[(i + 1) % outline_.size()] - corner;
         const double turn = crossProduct(along, side);
-        // The side is parallel to the line.
+        // Skips a side that is parallel to the line.
         if (std::abs(turn) <= ProjectedCells::kTinyShift * length * glm::length(side)) continue;
         const double place = crossProduct(corner - from, side) / turn;
         const double onSide = crossProduct(corner - from, along) / turn;
@@ -280,8 +281,8 @@ bool OcclusionFinder::isSeenBeside(const glm::dvec2& from, const glm::dvec2& to)
     }
     std::ranges::sort(places_);
     const glm::dvec2 across = kBesideLine * cells_.size() / length * glm::dvec2(-along.y, along.x);
-    // Next to a corner of the 2-face, the line leaves the 2-face. So a short part of the line near the corner is not
-    // tested.
+    // The tested line is beside the line from `from` to `to`, so it may leave the 2-face near a corner. A short part
+    // near each end is not tested, therefore.
     const double margin = 8 * kBesideLine * cells_.size() / length;
     for (std::size_t i = 0; i + 1 < places_.size(); ++i) {
         if ((places_[i + 1] - places_[i]) * length <= kShortest * cells_.size()) continue;

@@ -17,8 +17,8 @@ namespace oval4d::slicing {
 
 /// Which elements of a cell complex are drawn.
 struct DrawnElements {
-    /// A part of an edge that is seen. In the projection, it begins at this fraction of the edge and ends at that one;
-    /// both are exactly 0 or 1 at the ends of the edge.
+    /// A part of an edge that is seen. `from` and `to` are the places where the part begins and ends, as fractions of
+    /// the projected edge. At the ends of the edge, they are exactly 0 and 1.
     struct EdgePart {
         std::uint32_t edge;
         double from, to;
@@ -32,9 +32,9 @@ struct CellRoles {
     std::vector<bool> drawn, hides;
 };
 
-/// Finds what lies behind the cells of a cell complex: 2-faces and vertices, and parts of edges. Of a 2-face, it finds
-/// only whether all of it does. A cell does not hide the elements that it contains; ProjectedCells describes which
-/// other points it hides. Reuses its memory. Only one thread at a time may use an occlusion finder.
+/// Finds what lies behind the cells of a cell complex: vertices, parts of edges, and whole 2-faces. A 2-face of which
+/// only a part lies behind cells counts as seen. A cell does not hide the elements that it contains; ProjectedCells
+/// describes which other points it hides. Reuses its memory. Only one thread at a time may use an occlusion finder.
 class OcclusionFinder {
   public:
     /// The default limit on the number of steps (see findDrawnElements()). This many steps take a few tenths of a
@@ -42,20 +42,23 @@ class OcclusionFinder {
     static constexpr std::size_t kDefaultSteps = 50'000'000;
 
     /// Finds what is drawn of `complex`; `images` has the image of each vertex, as ProjectedCells describes it. Only
-    /// elements of the cells CellRoles::drawn are drawn, and of these:
+    /// elements of cells whose entry in CellRoles::drawn is true are drawn, and of these:
     /// - if `withFaces`, the 2-faces that are not wholly hidden; otherwise, no 2-face;
     /// - the parts of edges that are not hidden;
     /// - the vertices that are not hidden.
     ///
     /// An edge is divided where a cell begins or ceases to hide it, so that its parts are exact. In a 2-face, the
-    /// visible parts are bounded by three kinds of lines: its sides, the lines in which cells pass through it, and the
-    /// projections of 2-faces at which the boundary of the body turns away from the eye. The 2-face is hidden if both
-    /// sides of all these lines are hidden. Visible parts narrower than about 10⁻⁶ of the size of the projection may be
-    /// overlooked.
+    /// visible parts are bounded by three kinds of lines:
+    /// - the sides of the 2-face;
+    /// - the lines in which cells pass through the 2-face;
+    /// - the projections of other 2-faces at which the boundary of the body turns away from the eye.
+    ///
+    /// The 2-face is hidden if both sides of all these lines are hidden. Visible parts narrower than about 10⁻⁶ of the
+    /// size of the projection may be overlooked.
     ///
     /// `steps` limits the time. A step is the comparison of a part of an element with a cell or with a triangle of the
-    /// boundary of a cell. Returns false if the steps are too few; then `out` is not valid. If they are fewer than the
-    /// pairs of a cell that hides and of an element to be tested, returns false at once.
+    /// boundary of a cell. Returns false if the steps are too few; then `out` is not valid. If the steps are fewer than
+    /// the pairs of a hiding cell and an element to be tested, returns false at once.
     bool findDrawnElements(const geometry::CellComplex& complex, std::span<const glm::dvec4> images,
                            const CellRoles& roles, bool withFaces, std::size_t steps, DrawnElements& out);
 
@@ -89,15 +92,15 @@ class OcclusionFinder {
     bool isSeenBesideTriangle(const Triangle& triangle);
     bool isSeenBeside(const glm::dvec2& from, const glm::dvec2& to);
 
-    const geometry::CellComplex* complex_ =
-        nullptr;  // the cell complex that findDrawnElements() searches; cells_ has its cells
+    // The cell complex that findDrawnElements() searches; cells_ has its cells.
+    const geometry::CellComplex* complex_ = nullptr;
     ProjectedCells cells_;
     std::vector<SilhouetteFace> silhouetteFaces_;
 
-    ProjectedFaceFrame faceFrame_{};                  // the image of the plane of the tested 2-face
-    std::vector<glm::dvec2> outline_;                 // the vertex loop of the tested 2-face
-    std::vector<std::uint32_t> candidates_;           // the indices of the occluders that may hide parts of the element
-    std::vector<double> places_;                      // the places at which a line crosses outline_
+    ProjectedFaceFrame faceFrame_{};         // the image of the plane of the tested 2-face
+    std::vector<glm::dvec2> outline_;        // the vertex loop of the tested 2-face
+    std::vector<std::uint32_t> candidates_;  // the indices of the occluders that may hide parts of the element
+    std::vector<double> places_;             // the places at which a line crosses outline_, as fractions of the line
     std::vector<ProjectedCells::Part> visibleParts_;  // the visible parts of the tested edge
 };
 

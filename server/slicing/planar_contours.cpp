@@ -50,7 +50,7 @@ void PlanarContourTracer::trace(const fields::Field& field, const geometry::Rota
         out[i].clear();
         setSectionPlane(field, toFunction, kPlaneAxes[i], point);
         if (!findBoxSides(field, toFunction)) continue;
-        const double reach = 1.01 * field.circumradius;  // a square that contains the domain
+        const double reach = 1.01 * field.circumradius;  // half the side of a square that contains the domain
         const std::vector<glm::dvec2> square{{-reach, -reach}, {reach, -reach}, {reach, reach}, {-reach, reach}};
         for (double size = step;; size = std::min(2 * size, coarsest)) {
             polygon_ = square;
@@ -205,6 +205,7 @@ void PlanarContourTracer::addSegments(std::span<const std::uint32_t> corners, do
     // - In a square, `middle` is the value at the saddle point of the bilinear interpolation, minus the level (G. M.
     //   Nielson and B. Hamann, "The asymptotic decider", 1991).
     // - In any other cell, `middle` has the sign of the mean of all corners, minus the level.
+    //
     // Corners on the same side of the level as the middle are connected. On the other side, a segment separates each
     // run of successive corners from the middle.
     double middle = sum;

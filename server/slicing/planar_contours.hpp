@@ -47,17 +47,18 @@ using MatrixContours = std::array<PlanarContours, kPlaneAxes.size()>;
 inline constexpr double kMinContourSquares = 8, kMaxContourSquares = 160;
 
 /// The maximum number of points of the contours in one plane. If there are more points, the lattice is made coarser, as
-/// long as it has more than a quarter of kMaxContourSquares along the side of a panel.
+/// long as it has more than a quarter of kMaxContourSquares across the diameter of the field's circumscribed sphere.
 inline constexpr std::size_t kMaxContourPoints = 20'000;
 
-/// Returns the maximum time to evaluate a field at the lattice points of all six planes together, in nanoseconds, as
-/// estimated by ScalarFunction::cost(): a tenth of the time for surfaces. If the evaluation would take longer, the
-/// lattices are made coarser, down to kMinContourSquares along the side of a panel.
+/// Returns the maximum time, in nanoseconds, to evaluate a field at the lattice points of all six planes together: a
+/// tenth of the time for surfaces. The time of an evaluation is estimated by ScalarFunction::cost(). If the evaluation
+/// would take longer, the lattices are made coarser, down to kMinContourSquares along the side of a panel.
 constexpr double maxContourTime(Quality quality) { return 0.1 * surfaceLimits(quality).time; }
 
 /// Returns the lattice step of the contours of `field` in the units of the object. `side` is the side of a panel in
 /// these units, and `pixels` its side in pixels. The lattice squares are as wide as the lattice cubes of surfaces in
-/// pictures (see pixelsPerCube()). For files, whose size in pixels is not known, the lattice is as fine as allowed.
+/// pictures (see pixelsPerCube()), or wider if maxContourTime() would be exceeded. For files, whose size in pixels is
+/// not known, the lattice is as fine as allowed.
 double contourStep(const fields::Field& field, double side, double pixels, Quality quality);
 
 /// Finds the contours of a field in planes by marching squares. Reuses its memory. Only one thread at a time may use a
@@ -66,10 +67,11 @@ class PlanarContourTracer {
   public:
     /// Finds the contours of `levels` of `field`, rotated by `orientation`, in the six planes through `point`, and
     /// writes them to `out`. The coordinates of `point` are those after the rotation. The function is evaluated only in
-    /// the domain: at the points of a square lattice with the step `step`, and where the sides of lattice squares meet
-    /// the boundary of the domain. Between these points, the function is interpolated linearly. No line passes through
-    /// a square if the function has no value at one of the square's corners. In drafts, contours may lack details of
-    /// the function that are smaller than the step. Overwrites `out`.
+    /// the domain: at the points of a square lattice, and where the sides of lattice squares meet the boundary of the
+    /// domain. Between these points, the function is interpolated linearly. The step of the lattice is `step`, or
+    /// greater if a plane would have more than kMaxContourPoints points of contours. No line passes through a square if
+    /// the function has no value at one of the square's corners. In drafts, contours may lack details of the function
+    /// that are smaller than the step. Overwrites `out`.
     void trace(const fields::Field& field, const geometry::Rotation& orientation, const glm::dvec4& point,
                std::span<const double> levels, double step, Quality quality, MatrixContours& out);
 
@@ -108,8 +110,8 @@ class PlanarContourTracer {
     std::vector<float> values_;       // per point of points_: the value of the function
     // Per lattice point: its index in points_, or kNone if it lies outside the domain.
     std::vector<std::uint32_t> latticePoints_;
-    // The lattice squares, cut by the domain. cellCorners_ has the indices in points_ of the corners of all cells, and
-    // cellBegin_ the index in cellCorners_ of each cell's first corner.
+    // The lattice cells: the lattice squares, cut by the domain. cellCorners_ has the indices in points_ of the corners
+    // of all cells, and cellBegin_ the index in cellCorners_ of each cell's first corner.
     std::vector<std::uint32_t> cellBegin_, cellCorners_;
     // Where the contour of one level crosses the sides of one cell, in their order around the cell.
     std::vector<glm::dvec2> crossings_;

@@ -14,7 +14,7 @@ namespace {
 
 // Tolerances, as fractions of the size of the projection. They are large compared with rounding errors.
 constexpr double kDepthTolerance = 3e-9;  // a point at most this far below a cell's hyperplane is not hidden by it
-constexpr double kBoxMargin = 1e-7;       // the margin around the bounding boxes of triangles
+constexpr double kBoxMargin = 1e-7;       // a segment may cross a triangle this far outside its bounding box
 constexpr double kLeastExtent = 1e-9;     // a cell whose extent in a direction is less than this hides nothing
 
 constexpr double kLeastSlope = 1e-9;  // the least upward component of the normal of a cell that can hide something
@@ -207,7 +207,7 @@ ProjectedCells::Segment ProjectedCells::shifted(const Segment& segment, const gl
     return {segment.from + shift, segment.to + shift};
 }
 
-// Adds the parts of a segment between those in covered_ to visible_. Returns whether there are any.
+// Adds to visible_ the parts of a segment that are not in covered_. Returns whether there are any.
 bool ProjectedCells::addVisible() {
     const std::size_t before = visible_.size();
     double reach = 0;
@@ -265,7 +265,8 @@ bool ProjectedCells::addHiddenParts(const Occluder& occluder, const Segment& seg
 }
 
 // Returns where the projection of a segment may cross the projection of a triangle: a number from 0 (at the start of
-// the segment) to 1. At a crossing, the projected point lies in the bounding box of the triangle.
+// the segment) to 1. Returns an empty optional if the segment does not cross the plane of the triangle, or crosses it
+// outside the bounding box of the triangle by more than kBoxMargin.
 std::optional<double> ProjectedCells::crossingOf(const Segment& segment, const Triangle& triangle) const {
     const glm::dvec3 a(points_[triangle[0]]), b(points_[triangle[1]]), c(points_[triangle[2]]);
     const glm::dvec3 from(segment.from), to(segment.to), normal = glm::cross(b - a, c - a);

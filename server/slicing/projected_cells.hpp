@@ -20,8 +20,8 @@
 namespace oval4d::slicing {
 
 /// Returns what the side from `a` to `b` of a loop adds to the winding number of the loop around 0. In the other
-/// direction, from `b` to `a`, the side adds the opposite number, also with rounding errors. So a closed surface has no
-/// gaps.
+/// direction, from `b` to `a`, the side adds the opposite number, in spite of rounding errors. So a closed surface has
+/// no gaps between its faces.
 int windingOfSide(const glm::dvec2& a, const glm::dvec2& b);
 
 /// The projections of the cells of a cell complex, and a search for what they hide. Reuses its memory. Only one thread
@@ -34,8 +34,9 @@ int windingOfSide(const glm::dvec2& a, const glm::dvec2& b);
 ///
 /// A cell hides a point if two conditions hold: the point lies below the hyperplane of the cell, and the boundary of
 /// the projected cell winds around the projected point (nonzero winding number). A point below the common boundary of
-/// two such cells must be hidden, too. Therefore a point counts as hidden only if it is hidden after a tiny shift in
-/// each of four directions, chosen so that one of them leads into every half-space.
+/// two such cells must be hidden, too, although it is inside neither projection. Therefore each point is tested after a
+/// tiny shift in each of four directions, and counts as hidden if it is hidden after all of them. Every half-space
+/// contains at least one of these directions.
 class ProjectedCells {
   public:
     /// The length of the tiny shifts in the test whether a point is hidden, as a fraction of size().
@@ -49,7 +50,7 @@ class ProjectedCells {
         bool intersects(const Box& other) const;
         void include(const glm::dvec3& point);
     };
-    /// A cell that hides something: it is not seen edge-on.
+    /// A cell that may hide something: it is not seen edge-on.
     struct Occluder {
         std::uint32_t cell;
         Box box;
@@ -66,7 +67,7 @@ class ProjectedCells {
     };
 
     /// Sets the cells of `complex`, which must exist as long as this object is used. `images` has the image of each
-    /// vertex, and `hides` says for each cell whether it hides anything. Allows `steps` steps from now on.
+    /// vertex, and `hides` says for each cell whether it may hide anything. Allows `steps` steps from now on.
     void setCells(const geometry::CellComplex& complex, std::span<const glm::dvec4> images,
                   const std::vector<bool>& hides, std::size_t steps);
 
@@ -75,7 +76,7 @@ class ProjectedCells {
     const std::vector<glm::dvec4>& points() const { return points_; }
     /// Returns the greatest distance from 0 of a point in points().
     double size() const { return size_; }
-    /// Returns the cells that hide something.
+    /// Returns the cells that may hide something.
     const std::vector<Occluder>& occluders() const { return occluders_; }
     /// Returns the indices of all occluders: 0, 1, 2, …
     std::span<const std::uint32_t> allOccluders() const { return allOccluders_; }
@@ -127,7 +128,7 @@ class ProjectedCells {
     std::vector<Triangle> triangles_;
     // Per cell: the index of its first triangle; then the number of triangles.
     std::vector<std::uint32_t> triangleBegin_;
-    // Per vertex and per edge: the cells that contain it; some cells are listed several times.
+    // Per vertex and per edge: the cells that contain it, in ascending order.
     geometry::JaggedArray cellsOfVertex_, cellsOfEdge_;
 
     std::vector<glm::dvec4> points_;
@@ -139,8 +140,8 @@ class ProjectedCells {
     std::uint32_t test_ = 0;                 // the number of the current test, which began with the last excludeCells()
     std::size_t lastHiding_ = 0;             // the index of the last occluder that hid a whole segment
 
-    std::vector<double> cuts_;             // where a cell begins or ceases to hide a segment
-    std::vector<Part> covered_, visible_;  // the hidden parts of a segment, and those that are not hidden
+    std::vector<double> cuts_;  // where a cell may begin or cease to hide a segment, as fractions of the segment
+    std::vector<Part> covered_, visible_;  // the hidden parts of a segment, and the parts that are not hidden
 };
 
 }  // namespace oval4d::slicing

@@ -31,8 +31,9 @@ struct ElementSelection {
     }
 };
 
-// Numbers the selected vertices and edges. Sets `vertices` and `edges` to their indices in part 0 of the output, or to
-// kNone for elements that are not selected. An edge that is seen in parts gets the index of its first part.
+// Numbers the selected vertices and edges. Sets the entries of `vertices` and `edges` to the indices of these elements
+// in part 0 of the output, or to kNone for elements that are not selected. An edge that is seen in parts gets the index
+// of its first part.
 void numberSelectedElements(const geometry::CellComplex& p, const ElementSelection& selection,
                             std::vector<std::uint32_t>& vertices, std::vector<std::uint32_t>& edges) {
     vertices.assign(p.vertices.size(), kNone);
@@ -64,9 +65,9 @@ void numberSelectedElements(const geometry::CellComplex& p, const ElementSelecti
     }
 }
 
-// Adds the parts of edges to part 0, which has the vertices with the numbers `number`, and the ends of the parts within
-// the edges. `place` returns the projection of a vertex. If some vertices have no balls, sets the scales and opacities
-// of all.
+// Adds to part 0 of the output the parts of edges that are seen, and a vertex at each end of such a part within an
+// edge. `number` has the index of each vertex of the complex in part 0, or kNone. `place` returns the projection of a
+// vertex. If some vertices have no balls, sets the scales and opacities of the balls of all vertices.
 template <typename Place>
 void addEdgeParts(const geometry::CellComplex& p, const DrawnElements& drawn, const std::vector<std::uint32_t>& number,
                   Place place, SliceSet& out) {
@@ -219,8 +220,8 @@ void Projector::addSlice(const SliceSet& slices, int slice, const ProjectionToHy
 }
 
 // Finds the cells whose outer sides are turned toward the eye E. The outer side of a cell is turned toward E if E lies
-// on the outer side of the cell's hyperplane: n·E > n·p for the outward normal n of the cell and any point p of the
-// cell. For E = (0, 0, 0, d), division by d gives n_w > (n·p) / d.
+// on the outer side of the cell's hyperplane. This is so if n·E > n·p, where n is the outward normal of the cell and p
+// any point of the cell. For E = (0, 0, 0, d), division by d gives n_w > (n·p) / d.
 void Projector::findFacingCells(const Object& object, const geometry::Rotation& orientation,
                                 const ProjectionToHyperplane& projection) {
     const geometry::ObjectInfo& info = infoOf(object);
@@ -232,8 +233,8 @@ void Projector::findFacingCells(const Object& object, const geometry::Rotation& 
     const glm::dvec4 toW(matrix[0][3], matrix[1][3], matrix[2][3], matrix[3][3]);
     cellIsFacing_.resize(normals_.size());
     for (std::size_t c = 0; c < normals_.size(); ++c) {
-        const double slack =
-            kOnPlaneTolerance * glm::length(normals_[c]);  // a cell seen edge-on must not count as facing the eye
+        // With this slack, a cell that is seen edge-on does not count as facing the eye.
+        const double slack = kOnPlaneTolerance * glm::length(normals_[c]);
         cellIsFacing_[c] = glm::dot(toW, normals_[c]) > offsets_[c] * projection.inverseDistance + slack;
     }
 }

@@ -66,15 +66,16 @@ class Projector {
     /// follow. Part i is stored like slice i of a SliceSet; `out.planes` and `out.rotatedVertices` are not used.
     /// `slices` must have been cut from `object` rotated by `orientation`. In part 0, the source number of a vertex,
     /// edge or 2-face is the one that it would have in a slice whose hyperplane contains it (see SliceSet). If an edge
-    /// is hidden in part, each part that is seen is an edge of `out` with the source number of the edge; where the part
-    /// ends within the edge, it has a vertex without a ball, whose source number is that of a vertex cut from the edge.
-    /// Hidden corners of 2-faces that are seen have no balls, either (see SliceSet::hasBall()), and the entries of
-    /// SliceSet::cornerEdges for hidden sides are kNone.
+    /// is hidden in part, each part that is seen is an edge of `out` with the source number of the edge. Where such a
+    /// part ends within the edge, it has a vertex without a ball. The source number of this vertex is that of a vertex
+    /// cut from the edge. Hidden corners of 2-faces that are seen have no balls, either (see SliceSet::hasBall()), and
+    /// the entries of SliceSet::cornerEdges for hidden sides are kNone.
     ///
-    /// Writes one entry to `faceCells` for each face in `out`. For a 2-face in part 0, this is the cell that determines
-    /// the color of the 2-face: if one of its two cells is hidden, the other one; otherwise the first one, unless only
-    /// the second one is turned toward the eye. If the object has no cells, the entry is the index of the 2-face. For a
-    /// face of a slice, it is the source number of the face. Overwrites `out` and `faceCells`.
+    /// Writes one entry to `faceCells` for each face in `out`. For a 2-face in part 0, the entry is the cell that
+    /// determines the color of the 2-face. If one of its two cells is hidden, this is the other one. Otherwise, it is
+    /// the first one, unless only the second one is turned toward the eye. If the object has no cells, the entry is the
+    /// index of the 2-face. For a face of a slice, it is the source number of the face. Overwrites `out` and
+    /// `faceCells`.
     void project(const Object& object, const geometry::Rotation& orientation, const SliceSet& slices,
                  const ProjectionOptions& options, SliceSet& out, std::vector<std::uint32_t>& faceCells);
 
@@ -111,7 +112,7 @@ class Projector {
     std::vector<std::uint32_t> edgeNumber_;  // per edge of the object: its index in part 0, or kNone
 
     bool lacksSteps_ = false;  // see exceededOcclusionSteps()
-    CellRoles roles_;          // of the last object; `drawn` is valid only for findUnhiddenElements()
+    CellRoles roles_;  // the roles of the cells of the last object; `drawn` is valid only during findUnhiddenElements()
     OcclusionFinder occlusion_;
     // The data for which unhidden_ and occlusionFound_ were computed; empty if these are not valid.
     std::optional<OcclusionInput> occlusionInput_;

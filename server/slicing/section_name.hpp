@@ -20,7 +20,8 @@ namespace oval4d::slicing {
 /// points where edges of the object cross the hyperplane, and only `slice` takes these points into account.
 struct SectionNamePair {
     std::string_view slice;  ///< the name of the slice: the result of SectionNamer::nameOfSlice()
-    /// The name of the hull of the vertices: the result of SectionNamer::nameOfHullOfObjectVertices().
+    /// The name of the convex hull of the object's vertices in the hyperplane: the result of
+    /// SectionNamer::nameOfHullOfObjectVertices().
     std::string_view vertices;
     bool operator==(const SectionNamePair&) const = default;
 };
@@ -41,11 +42,11 @@ struct NamedSection {
 /// - the point, the segment, and the regular polygons with up to 20 sides;
 /// - the Platonic, Archimedean, Catalan and Kepler–Poinsot solids;
 /// - the cuboids;
-/// - the right prisms, antiprisms, pyramids and bipyramids of any height whose bases are such polygons;
-/// - the duals of the uniform antiprisms with such bases;
-/// - the right prisms of any height whose bases are regular star polygons with up to 20 sides.
+/// - the right prisms, antiprisms, pyramids and bipyramids of any height over regular polygons with up to 20 sides;
+/// - the duals of the uniform antiprisms over these polygons;
+/// - the right prisms of any height over regular star polygons with up to 20 sides.
 ///
-/// All other shapes have no name, including all others that are not convex or have several components.
+/// All other shapes have no name, such as other nonconvex shapes and shapes with several components.
 ///
 /// If no named shape has the same numbers of vertices, edges and faces as a slice, a call of nameOfSlice() takes less
 /// than 1 µs, regardless of the size of the slice. Otherwise the time is proportional to V² log V for V vertices: 0.2
@@ -54,13 +55,13 @@ struct NamedSection {
 /// if a slice may be a cuboid, prism, antiprism, pyramid or bipyramid. Only one thread at a time may use a namer.
 class SectionNamer {
   public:
-    /// Tests quickly, without cutting the slice, whether a section may have a name. Returns false if the section of
+    /// Tests quickly, without cutting the object, whether a section may have a name. Returns false if the section of
     /// `object`, rotated by `orientation`, by the hyperplane w = `w` certainly has neither of the names in
-    /// SectionNamePair. Returns true if the section may have a name: let n be the number of the object's vertices in
-    /// the hyperplane, and m the number of edges that cross it. The slice has n + m vertices; the second name depends
-    /// only on the n vertices. The result is true if n or n + m is between 1 and the vertex count of the largest named
-    /// shape. For objects whose sections have no names (see ObjectKindProperties), such as fields, the result is always
-    /// false. Takes time linear in the numbers of vertices and edges.
+    /// SectionNamePair. The result depends on two numbers: n, the number of the object's vertices in the hyperplane,
+    /// and m, the number of edges that cross it. The slice has n + m vertices, and the second name depends only on the
+    /// n vertices. So the result is true if n or n + m is between 1 and the vertex count of the largest named shape.
+    /// For objects whose sections have no names (see ObjectKindProperties), such as fields, the result is always false.
+    /// Takes time linear in the numbers of vertices and edges.
     static bool mayHaveName(const Object& object, const geometry::Rotation& orientation, double w);
 
     /// Returns the name of slice number `slice`, such as "truncated tetrahedron", or an empty string if the slice has

@@ -48,8 +48,8 @@ std::size_t countSliceEdgesIn(const geometry::CellComplex& complex, const geomet
     const double tolerance = kOnPlaneTolerance * complex.circumradius;
     for (const glm::dvec4& vertex : complex.vertices)
         counts.push_back(countHyperplanes(planes, sorted, tolerance, (turned * vertex).w));
-    // Counts how often sides of 2-faces cross hyperplanes. A side that several 2-faces share is counted once for each
-    // of them. So each slice edge accounts for two crossings: its ends.
+    // Counts how often sides of 2-faces cross or touch hyperplanes. A side that several 2-faces share is counted once
+    // for each of them. So each slice edge accounts for at least two of these crossings, at its ends.
     std::size_t crossings = 0;
     for (std::size_t f = 0; f < complex.faces.size(); ++f) {
         const auto loop = complex.faces[f];
@@ -86,8 +86,8 @@ void checkSliceEdges(const Object& object, const geometry::Rotation& orientation
         visitElements(Overloaded{[](const geometry::CellComplex& complex) { return complex.faces.items.size(); },
                                  [](const geometry::PointCloud& /*cloud*/) { return std::size_t{0}; }},
                       object);
-    // A hyperplane crosses each side of a 2-face at most once, and each slice edge has two crossings as its ends. So
-    // half the number of sides, times the number of hyperplanes, is an upper bound.
+    // A hyperplane crosses each side of a 2-face at most once, and each slice edge joins two such crossings. So half
+    // the number of sides, times the number of hyperplanes, is an upper bound.
     if (sides * static_cast<std::size_t>(planes.count) / 2 <= allowed) return;
     const std::size_t found = sliceEdgeBound(object, orientation, planes);
     if (found > allowed) throw TooManySliceEdges(found, allowed);

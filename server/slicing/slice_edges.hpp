@@ -14,7 +14,8 @@ namespace oval4d::slicing {
 /// An error that checkSliceEdges() throws: the slices have too many edges. what() is a message for the user.
 class TooManySliceEdges : public std::runtime_error {
   public:
-    /// `found` is the number of edges that the slices may have, and `allowed` the maximum number.
+    /// `found` is the number of edges that the slices may have (see sliceEdgeBound()), and `allowed` the maximum
+    /// number.
     TooManySliceEdges(std::size_t found, std::size_t allowed);
 };
 

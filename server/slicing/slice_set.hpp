@@ -51,8 +51,8 @@ struct SliceSet {
     std::vector<glm::dvec3> vertices;  ///< x, y and z of each vertex, in the units of the object
     std::vector<std::uint32_t> vertexSource;
     /// For a point cloud, per vertex: the radius of its ball relative to the default (see relativeBallRadius()), and
-    /// the opacity of the ball, from 0 to 1. Empty if all these values are 1, as for other objects, except in
-    /// projections with vertices without balls, whose opacity is 0 (see Projector::project()).
+    /// the opacity of the ball, from 0 to 1. Empty for other objects, for which all these values are 1. Exception: in a
+    /// projection, some vertices may have no balls, which is stored as the opacity 0 (see Projector::project()).
     std::vector<float> ballScale, ballOpacity;
     std::vector<std::array<std::uint32_t, 2>> edges;
     std::vector<std::uint32_t> edgeSource;

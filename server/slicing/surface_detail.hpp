@@ -25,8 +25,8 @@ struct SurfaceDetail {
     /// The quality determines the limits on time and on the number of points. In drafts, surfaces may lack details of
     /// the function that are smaller than the lattice steps (see ScalarFunction::downsampledForSteps()).
     Quality quality = Quality::full;
-    /// Per slice: the distance between neighboring lattice points of the fog; 0 if it is not needed. Empty if no fog is
-    /// needed.
+    /// Per slice: the distance between neighboring lattice points of the fog, in the units of the object; 0 if the fog
+    /// of this slice is not needed. Empty if no fog is needed.
     std::vector<double> fogSteps = {};
     /// Whether only the topology of the surfaces is needed. If true, the points of the surfaces lie only roughly on the
     /// levels, and have no normals, growth or values.

@@ -27,8 +27,8 @@ void repeatBlock(std::vector<Item>& items, std::size_t begin, std::size_t size, 
     const std::size_t bytes = size * sizeof(Item);
     std::size_t done = bytes;
     if (bytes >= sizeof(SixteenByteChunk) && bytes <= kSmall) {
-        const std::size_t last =
-            bytes - sizeof(SixteenByteChunk);  // the start of the last chunk, which may overlap its neighbor
+        // The position of the last chunk in the block; this chunk may overlap the one before it.
+        const std::size_t last = bytes - sizeof(SixteenByteChunk);
         for (; done < bytes * std::min(times, kFew); done += bytes) {
             for (std::size_t at = 0; at < last; at += sizeof(SixteenByteChunk))
                 copyChunk(first + at, first + done + at);
@@ -67,8 +67,8 @@ bool HyperplaneSweep::begin(const polytopes::Polytope& polytope, PlanesBelowVert
 bool HyperplaneSweep::cut(const polytopes::Polytope& polytope, std::span<SliceSet* const> touching, int first,
                           SliceElementCounts& at, SliceSet& out) {
     first_ = first;
-    SliceElementCounts here =
-        at;  // a local copy, because the compiler must assume that writes to the arrays change `at`
+    // A local copy of `at`, because the compiler must assume that writes to the arrays may change `at` itself.
+    SliceElementCounts here = at;
     for (std::size_t step = 0; step + 1 < structureChanges_.size(); ++step) {
         int k = structureChanges_[step];
         const int next = structureChanges_[step + 1];
@@ -274,7 +274,7 @@ bool HyperplaneSweep::writeFaces(SliceElementCounts at, SliceSet& out) const {
         cornerBegin[i] = corner;
         const std::uint32_t start = firstEnd_[cut[i].number];
         const std::uint32_t first = sliceEdges[start >> 1U];
-        // The half-edge `start` lies on the edge of the cell that became active last. In a convex cell, the hyperplane
+        // The half-edge `start` ends on that edge of the cell that became active last. In a convex cell, the hyperplane
         // cuts this edge as long as it cuts the cell. If the hyperplane does not cut the 2-face of `start`, rounding
         // errors have made the cell nonconvex.
         if (first >= faces_.size() || edgeSource[first] != start >> 1U) return false;

@@ -27,7 +27,7 @@ namespace oval4d::slicing {
 /// face in the cell: where a slice edge ends, on a polytope edge, the walk goes on in the other 2-face of the cell at
 /// this polytope edge.
 ///
-/// Only where the hyperplane passes a vertex, the set of cut elements and their connections change. Between two
+/// The set of cut elements and their connections change only where the hyperplane passes a vertex. Between two
 /// vertices, only the coordinates of the slice change. Reuses its memory between calls.
 class HyperplaneSweep {
   public:

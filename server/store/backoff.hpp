@@ -7,9 +7,9 @@
 
 namespace oval4d::store {
 
-/// An exponential backoff with jitter. Each pause is a random time between half a limit and the limit. The limit is 0.1
-/// s at first, and doubles after each failure, up to 5 s. Randomness keeps servers that share a store from retrying at
-/// the same time.
+/// An exponential backoff with jitter. Each pause is a random time from half a limit to the limit. The limit is 0.1 s
+/// at first, and doubles with each failure, up to 5 s. The random times keep servers that share a store from retrying
+/// at the same moment.
 class Backoff {
   public:
     using Milliseconds = std::chrono::milliseconds;
@@ -23,7 +23,7 @@ class Backoff {
         const Milliseconds longest = std::min(kFirst * (1 << std::min(failures_++, kDoublings)), kLongest);
         return longest / 2 + Milliseconds(random_() % static_cast<unsigned>(longest.count() / 2));
     }
-    /// Resets the count of failures, so that nextPause() begins again with the shortest pause.
+    /// Resets the count of failures, so that the next pause has the limit 0.1 s again.
     void reset() { failures_ = 0; }
 
   private:

@@ -1,6 +1,6 @@
 #pragma once
-// The sessions in the memory of a write-behind store (a cache before the session store), and the queue of sessions with
-// changes to write.
+// The sessions in the memory of WriteBehindStore, a cache before the session store, and the queue of sessions whose
+// changes must be written to the store.
 
 #include <chrono>
 #include <cstddef>
@@ -18,15 +18,15 @@
 
 namespace oval4d::store {
 
-/// A callback for the end of saving changes. Its argument is `true` if the changes are stored, or wait in memory
-/// because the store is unavailable. The argument is `false` if the changes will never be stored.
+/// A callback that is called once for changes to save. Its argument is `true` if the changes are in the store, or wait
+/// in memory because the store is unavailable. The argument is `false` if the changes will never be stored.
 using SaveCallback = std::function<void(bool)>;
 
 /// The changes of a session that are not in the store yet. `head` is the session if its current state must be written,
 /// else null. `whole` is the session if all of it must be written, else null.
 struct PendingChanges {
     std::shared_ptr<const session::Session> head, whole;
-    std::vector<SaveCallback> waiting;  ///< callbacks to call after these changes are written
+    std::vector<SaveCallback> waiting;  ///< the callbacks for these changes that have not been called yet
 
     /// Adds older changes. Takes `head` and `whole` from `older` only where they are null here, and appends the
     /// callbacks of `older`.
@@ -64,15 +64,15 @@ class CachedSessions {
     /// Returns the session with this id, or a null pointer if the session is not in memory.
     CachedSession* find(const std::string& id);
     const CachedSession* find(const std::string& id) const;
-    /// Removes a session and returns it, so that the caller can destroy it without holding a lock. Returns an empty
-    /// optional if the session is not in memory.
+    /// Removes a session from memory and returns it, so that the caller can destroy it without holding a lock. Returns
+    /// an empty optional if the session is not in memory.
     std::optional<CachedSession> remove(const std::string& id);
     /// Removes the closed sessions that were closed before `time`. Returns their ids.
     std::vector<std::string> removeClosedBefore(CachedSession::Clock::time_point time);
     /// Removes closed sessions until the remaining closed sessions take at most `quota` bytes. Returns the removed
-    /// sessions with their ids. Removes sessions in this order: those that alone take more than `quota`, those that
-    /// were never changed, all others. Within each group, those that were closed first come first. Neither removes nor
-    /// counts sessions that are being written.
+    /// sessions with their ids. Removes sessions in this order: first those that alone take more than `quota`, then
+    /// those that were never changed, then all others; within each group, first those that were closed earlier. Neither
+    /// removes nor counts sessions that are being written.
     std::vector<std::pair<std::string, CachedSession>> evictClosed(std::size_t quota);
 
     /// Appends a session to the queue, unless the session is already queued.
@@ -80,7 +80,7 @@ class CachedSessions {
     /// Takes the first session from the queue, marks the session as being written, and returns its id. Returns an empty
     /// optional if the queue is empty.
     std::optional<std::string> takeFirstQueued();
-    /// Returns the number of queued sessions.
+    /// Returns the length of the queue, in which sessions that were removed from memory may still stand.
     std::size_t queueLength() const { return queue_.size(); }
 
     std::size_t size() const { return sessions_.size(); }
@@ -88,7 +88,7 @@ class CachedSessions {
     std::size_t neverSavedCount() const;
     /// Returns the number of sessions with changes that may not be in the store yet.
     std::size_t unsaved() const;
-    /// Returns the ids of the sessions that are open in a client and have been in the store.
+    /// Returns the ids of the sessions that a client has open and that have ever been in the store.
     std::vector<std::string> idsOfOpenSavedSessions() const;
 
   private:
@@ -96,7 +96,8 @@ class CachedSessions {
     std::deque<std::string> queue_;
 };
 
-/// Returns an estimate of a session's memory in bytes. Counts objects even if other sessions share them.
+/// Returns an estimate of the memory of a session with its objects, in bytes. Counts objects even if other sessions
+/// share them.
 std::size_t estimateMemory(const session::Session& session);
 
 }  // namespace oval4d::store

@@ -8,7 +8,7 @@ using nlohmann::json;
 
 namespace {
 
-constexpr std::size_t kMaxDepth = 16;  // maximum nesting depth of arrays and objects
+constexpr std::size_t kMaxDepth = 16;  // the maximum nesting depth of arrays and objects in a record
 // The maximum length of a short text: 64 characters with at most 4 bytes each, in UTF-8.
 constexpr std::size_t kMaxNameBytes = 256;
 

@@ -1,5 +1,5 @@
 #pragma once
-// Functions that write CBOR records (RFC 8949), and that read and check values in such records.
+// Functions that write records in CBOR (RFC 8949), and that read and check values in such records.
 
 #include <concepts>
 #include <cstddef>
@@ -22,20 +22,21 @@ inline constexpr int kRecordVersion = 1;
 /// Throws UnreadableRecord (the record is not valid) with the message `what`.
 [[noreturn]] void throwUnreadableRecord(const std::string& what);
 
-/// Throws NewerVersionRecord. The message says that a later version of the program has stored the record; `what` names
-/// the part that this version does not know or allow.
+/// Throws NewerVersionRecord. Its message says that a later version of the program has stored the record, followed by
+/// `what`, which must tell what this version does not know or allow.
 [[noreturn]] void throwLaterRecord(const std::string& what);
 
 /// Returns the CBOR encoding of a JSON value.
 std::string encodeCbor(const nlohmann::json& value);
 
-/// Parses a record: a CBOR array that begins with a version from 1 to `latestVersion`. Throws NewerVersionRecord if the
-/// version is greater. Throws UnreadableRecord if `bytes` is not a record, or is nested too deeply.
+/// Parses a record, and returns it: a CBOR array whose first element is a version from 1 to `latestVersion`. Throws
+/// NewerVersionRecord if the version is greater. Throws UnreadableRecord if `bytes` is not a record, or is nested too
+/// deeply.
 nlohmann::json parseRecord(std::string_view bytes, int latestVersion = kRecordVersion);
 
-/// Throws NewerVersionRecord if the array has more than `known` members. Only a later version of this program stores
-/// more members. Reading such a record is refused, because the unknown members would be lost when the session is stored
-/// again.
+/// Throws NewerVersionRecord if the array has more than `known` elements, one for each stored member of a struct. Only
+/// a later version of this program stores more members. Reading such a record is refused, because the unknown members
+/// would be lost when the session is stored again.
 void refuseUnknownMembers(const nlohmann::json& array, std::size_t known);
 
 /// Calls `read` and returns its result. Converts exceptions of the JSON library to UnreadableRecord.
@@ -48,8 +49,8 @@ auto callTranslatingErrors(Read read) {
     }
 }
 
-/// Returns `value` as a number. The number must be from `least` to `most`; in the overload without `least`, from
-/// −`most` to `most`. Throws NewerVersionRecord for a number outside this range. If `value` is not a number, throws an
+/// Returns `value` as a number, which must be from `least` to `most` or, in the overload without `least`, from −`most`
+/// to `most`. Throws NewerVersionRecord for a number outside this range. If `value` is not a number, throws an
 /// exception of the JSON library, which callTranslatingErrors() converts to UnreadableRecord.
 double readNumber(const nlohmann::json& value, double least, double most);
 double readNumber(const nlohmann::json& value, double most);

@@ -1,6 +1,6 @@
 #pragma once
-// Writes the stored members of structs to JSON arrays, and reads them. The visitors fit visitStoredMembers() functions;
-// serialization/stored_members.hpp describes their interface.
+// Writes the stored members of structs to JSON arrays, and reads them. MemberWriter and MemberReader are visitors for
+// the functions visitStoredMembers(), which serialization/stored_members.hpp describes.
 
 #include <algorithm>
 #include <array>
@@ -30,7 +30,7 @@
 
 namespace oval4d::store {
 
-/// A visitor that writes the members of a struct to an array (see serialization/stored_members.hpp).
+/// A visitor that writes the stored members of a struct to a JSON array (see serialization/stored_members.hpp).
 class MemberWriter {
   public:
     template <typename T, typename... Ranges>
@@ -100,7 +100,7 @@ class MemberWriter {
         for (std::size_t i = 0; i < rows.size(); ++i) list.emplace_back(rows[i]);
         return list;
     }
-    // Encodes samples as 32-bit floats in little-endian byte order, which is the byte order of x86-64.
+    // Encodes samples as 32-bit floats in the byte order of the processor: little-endian on x86-64.
     static nlohmann::json encoded(const fields::SampleStorage& samples) {
         const auto* bytes = reinterpret_cast<const std::uint8_t*>(samples.values().data());
         return nlohmann::json::binary(
@@ -111,7 +111,7 @@ class MemberWriter {
     static nlohmann::json encoded(const glm::dquat& q) { return {q.w, q.x, q.y, q.z}; }
     // Encodes a turn (a rotation in one plane or several). A turn in one plane, or in two perpendicular planes, becomes
     // [plane, angle, angle in the perpendicular plane or null]; earlier versions can read this form, too. Any other
-    // turn becomes a list of pairs [[plane, angle], …]. Angles are in radians.
+    // turn becomes a list of pairs: [[plane, angle], …]. Angles are in radians.
     static nlohmann::json encoded(const geometry::RotationAngles& turn) {
         const std::vector<geometry::Plane> planes = turn.planes();
         const geometry::Plane first = planes.at(0);
@@ -137,7 +137,7 @@ inline glm::dquat quaternionIn(const nlohmann::json& value) {
     return {value.at(0).get<double>(), value.at(1).get<double>(), value.at(2).get<double>(), value.at(3).get<double>()};
 }
 
-/// A visitor that reads the members of a struct from an array (see serialization/stored_members.hpp).
+/// A visitor that reads the stored members of a struct from a JSON array (see serialization/stored_members.hpp).
 class MemberReader {
   public:
     explicit MemberReader(const nlohmann::json& array) : array_(array) {}
@@ -164,7 +164,7 @@ class MemberReader {
         rotation = *decoded;
     }
 
-    /// Throws NewerVersionRecord if the array has members after the last member that was read.
+    /// Throws NewerVersionRecord if the array has elements after those of the members that were read.
     void refuseUnreadMembers() const { refuseUnknownMembers(array_, readCount_); }
 
   protected:

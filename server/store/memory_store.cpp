@@ -8,7 +8,7 @@
 namespace oval4d::store {
 
 std::size_t MemoryStore::StoredSession::bytes() const {
-    constexpr std::size_t kOverhead = 512;  // estimated memory of a map entry, in bytes
+    constexpr std::size_t kOverhead = 512;  // estimated memory of an entry of a map without its texts, in bytes
     std::size_t bytes = kOverhead + tokenHash.size() + whole.size() + head.size();
     for (const auto& [key, object] : objects) bytes += kOverhead + object.size();
     return bytes;

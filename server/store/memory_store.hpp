@@ -1,5 +1,5 @@
 #pragma once
-// A session store in memory.
+// A session store in the memory of the server process.
 
 #include <map>
 
@@ -12,7 +12,8 @@ class MemoryStore final : public Store {
   public:
     using Clock = std::chrono::steady_clock;
 
-    /// `quota` is the maximum total size of all records, in bytes.
+    /// Creates an empty store. `quota` is the maximum total size of all records, in bytes. `now` returns the current
+    /// time.
     explicit MemoryStore(std::size_t quota = kDefaultQuota, ClockFunction<Clock> now = Clock::now)
         : quota_(quota), now_(std::move(now)) {}
 
@@ -30,7 +31,8 @@ class MemoryStore final : public Store {
     std::size_t size() const override { return entries_.size(); }
 
   private:
-    // A stored session. `touched` is the time of its last use.
+    // The record of a session. `touched` is the time of the last claim, save or restartExpiry(). `changed` is the
+    // RecordUpdate::changed of the last save.
     struct StoredSession {
         std::string tokenHash, whole, head;
         std::map<std::string, std::string> objects;

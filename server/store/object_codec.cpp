@@ -23,10 +23,10 @@
 #include "store/object_record_v1.hpp"
 #include "text/message_text.hpp"
 
-// The record of an object is a CBOR array with four elements: [version, kind, isFile, members]. `isFile` is true if the
-// members name a file in the data folder. The members are those that visitStoredMembers() visits: members of the object
-// or, for a field, of its definition. Records of version 1 are converted before they are read (see
-// object_record_v1.cpp).
+// The record of an object is a CBOR array with four elements: [version, kind, isFile, members]. `kind` is the number of
+// the kind of object (see ObjectKindCodec). `isFile` is true if the members name a file in the data folder instead of
+// containing samples. The members are those that visitStoredMembers() visits: members of the object or, for a field, of
+// its definition. Records of version 1 are converted before they are read (see object_record_v1.cpp).
 
 namespace oval4d::store {
 
@@ -38,7 +38,7 @@ using polytopes::Polytope;
 constexpr int kObjectRecordVersion = 2;
 constexpr std::size_t kObjectRecordMembers = 4;
 
-/// Returns whether the record of an object names a file instead of containing samples.
+/// Returns whether the record of this object names a file instead of containing samples.
 bool hasFileSource(const fields::FieldDefinition& field) { return field.source.has_value(); }
 bool hasFileSource(const geometry::ObjectInfo& /*object*/) { return false; }
 
@@ -54,9 +54,10 @@ slicing::Object loadFromDataFolder(const std::string& name, const fields::FieldF
 
 // --- The kinds of objects
 //
-// A ObjectKindCodec for each kind of objects contains: the number of the kind in records, which must not change; the
-// struct whose members are stored; a function that makes an object from this struct. The compiler reports a kind
-// without a ObjectKindCodec, and kinds with the same number.
+// ObjectKindCodec has a specialization for each kind of objects. `kNumber` is the number of the kind in records, and
+// must not change. `Stored` is the struct whose members are stored. toStored() returns this struct for an object, and
+// makeObject() makes an object from the struct. The compiler reports a kind without a specialization, and kinds with
+// the same number.
 
 template <typename ObjectPtr>
 struct ObjectKindCodec;
@@ -120,7 +121,8 @@ struct ObjectKindCodec<slicing::FieldPtr> {
             return loadFromDataFolder(info.name, *source, open);
         }
         auto field = fields::fieldFromDefinition(stored);
-        // All other errors concern a formula or its box.
+        // Errors other than `bad_field` concern a formula or its box. A later version may accept what this version
+        // refuses.
         if (!field && field.error().code != ErrorCode::bad_field)
             throwLaterRecord("a formula cannot be read: " + field.error().message);
         if (!field) throwUnreadableRecord("a field is not valid: " + field.error().message);
@@ -149,8 +151,8 @@ struct ObjectKindCodec<slicing::SurfacePtr> {
     }
 };
 
-// Returns whether the numbers of the kinds are different and less than 24. Such numbers have one byte in a record, as
-// refersToFile() requires.
+// Returns whether the numbers of the kinds differ from each other and are less than 24. In CBOR, such a number is one
+// byte, as refersToFile() requires.
 template <typename... Kinds>
 consteval bool numbersAreDifferentAndSmall(std::type_identity<std::variant<Kinds...>> /*kinds*/) {
     std::array<unsigned, sizeof...(Kinds)> numbers{ObjectKindCodec<Kinds>::kNumber...};
@@ -159,7 +161,7 @@ consteval bool numbersAreDifferentAndSmall(std::type_identity<std::variant<Kinds
 }
 static_assert(numbersAreDifferentAndSmall(std::type_identity<slicing::Object>()));
 
-/// Decodes the record of an object of any of the kinds `Kinds`.
+/// Decodes the record, in version 2, of an object whose kind is one of `Kinds`.
 template <typename... Kinds>
 slicing::Object decodeOneOf(std::type_identity<std::variant<Kinds...>> /*kinds*/, const json& record,
                             const DataFolderReader& open) {
@@ -186,7 +188,7 @@ slicing::Object decodeOneOf(std::type_identity<std::variant<Kinds...>> /*kinds*/
 bool refersToFile(std::string_view record) {
     // Compare the first bytes of the record. In CBOR, an array with n < 24 elements begins with the byte 0x80 + n. A
     // number below 24 is one byte, and true is the byte 0xf5 (RFC 8949, section 3). A record of version 1 refers to a
-    // file if it has three elements.
+    // file if it has three elements, so that it begins with 0x83.
     constexpr std::size_t kPlaceOfFlag = 3;
     if (record.starts_with('\x83')) return true;
     return record.size() > kPlaceOfFlag && record[0] == '\x84' && record[1] == kObjectRecordVersion &&

@@ -17,8 +17,8 @@ using nlohmann::json;
 
 namespace {
 
-// Returns the memory, in bytes, that the result of slicing::transformedTo() needs. A transformed field has its own
-// domain, but shares the functions of `source`, and so the samples of an array.
+// Returns the memory, in bytes, that slicing::transformedTo() needs for a copy of `source`. A transformed field has its
+// own domain, but shares the functions of `source` and the samples of their arrays.
 std::size_t memoryOfTransformed(const slicing::Object& source) {
     const fields::Field* const field = slicing::fieldIn(source);
     return field == nullptr ? slicing::memoryOf(source) : sizeof *field + polytopes::memoryOf(*field->domain);
@@ -63,9 +63,10 @@ slicing::Object ObjectListDecoder::transformedTo(const slicing::Object& source, 
     const auto known = std::ranges::find_if(
         transformed_, [&](const TransformedObject& image) { return image.source == source && image.frame == frame; });
     if (known != transformed_.end()) return known->image;
-    // Limit the memory of a transformed object, too, because a record may list few vertices but many 2-faces. The
-    // object counts as at least one vertex per kBytesOfVertex bytes, which is the typical memory of a vertex with its
-    // share of the other elements. Samples of an array do not count, because all transformed objects share them.
+    // The limit on vertices must also limit the memory of transformed objects, because an object may have few vertices
+    // but many 2-faces. So a transformed object counts as at least one vertex per kBytesOfVertex bytes, the typical
+    // memory of a vertex with its share of the other elements. Samples of an array do not count, because all
+    // transformed objects share them.
     constexpr std::size_t kBytesOfVertex = 100;
     const std::size_t vertices =
         std::max(slicing::elementCounts(source)[0], memoryOfTransformed(source) / kBytesOfVertex);
@@ -79,7 +80,7 @@ slicing::Object ObjectListDecoder::transformedTo(const slicing::Object& source, 
 /// `vertexBudget_`. Throws NewerVersionRecord if no polytope has this name, or if it has more vertices than
 /// `vertexBudget_`. Throws UnreadableRecord if the polytope cannot be built.
 slicing::Object ObjectListDecoder::buildNamedPolytope(const std::string& name, polytopes::PolytopeCache& cache) {
-    constexpr std::size_t kMaxVertices = 1'000'000;  // for one polytope; clients may build far less
+    constexpr std::size_t kMaxVertices = 1'000'000;  // for one polytope; the limit for clients is far lower
     const auto named = polytopes::designNamed(name, kMaxVertices);
     const auto* design = std::get_if<polytopes::PolytopeDesign>(&named);
     if (design == nullptr) throwLaterRecord("the catalogue has no polytope called " + text::inQuotes(name));

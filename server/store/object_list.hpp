@@ -1,5 +1,6 @@
 #pragma once
-// The list of objects in a session record. States in the record contain indices into this list instead of objects.
+// Writes and reads the list of objects in a session record. The states in the record contain indices into this list
+// instead of objects.
 
 #include <cstddef>
 #include <map>
@@ -39,9 +40,10 @@ class ObjectListDecoder {
   public:
     static constexpr std::size_t kMaxTotalVertices = 10'000'000;
 
-    /// Reads a list that ObjectListEncoder::list() has returned. Throws UnreadableRecord if an object is missing or
-    /// cannot be built. Throws NewerVersionRecord if the catalogue lacks an object, or if the objects built from their
-    /// names have more than `maxVertices` vertices in total.
+    /// Reads a list that ObjectListEncoder::encodedList() has returned. `objectOf` returns the objects that have a key,
+    /// and `cache` builds those that have only a name. Throws UnreadableRecord if an object is missing or cannot be
+    /// built. Throws NewerVersionRecord if the catalogue lacks a name, or if the objects built from their names have
+    /// more than `maxVertices` vertices in total.
     ObjectListDecoder(const nlohmann::json& list, const ObjectLookup& objectOf, polytopes::PolytopeCache& cache,
                       std::size_t maxVertices = kMaxTotalVertices);
 
@@ -63,8 +65,8 @@ class ObjectListDecoder {
     };
     slicing::Object buildNamedPolytope(const std::string& name, polytopes::PolytopeCache& cache);
 
-    // The number of vertices that may still be built. The limit exists because a few bytes of a record can request
-    // large objects.
+    // How many vertices the objects that are still to be built or transformed may have in total. The limit exists
+    // because a few bytes of a record can request large objects.
     std::size_t vertexBudget_;
     std::vector<slicing::Object> objects_;
     std::vector<TransformedObject> transformed_;

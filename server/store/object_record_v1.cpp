@@ -6,18 +6,20 @@
 
 #include "store/cbor.hpp"
 
-// The record of an object in version 1 is an array. Its length tells the kind of object:
-// - 2: [version, [[origin in the file], record of the object]], an object that was moved when it was loaded
+// The record of an object in version 1 is an array. The length of the array tells the kind of object:
+// - 2: [version, [[origin], record]], an object that was moved when it was loaded: its origin in its file, and its
+//   record, which has another length
 // - 3: [version, name, source], a field in a file of the data folder; the source is as in version 2, but may lack the
 //   region
 // - 4: [version, name, points, radii], a point cloud
 // - 5: [version, name, formula or samples, box, shape], a field; the shape of a formula is an empty array
 // - 6: [version, name, vertices, 2-faces, cells, the type of each cell], a polytope
-// - 7: a field with a second function: the five members above, then the second function and a text; the second
+// - 7: a field with a second function: the elements of length 5, then the second function and a text; the second
 //   function is a formula or [variable, samples]
 // - 8: [version, name, vertices, 2-faces, null, null, null, null], a surface
-// - 9: an array with units: the seven members above (null if there is no second function), then [units of x, y, z and
-//   w, [name, unit] of the values] and [name, unit] of the values of the second function
+// - 9: an array with units: the elements of length 7 (the last two are null if there is no second function), then
+//   [unit of x, unit of y, unit of z, unit of w, [name, unit] of the values], and [name, unit] of the values of the
+//   second function
 // This format does not change anymore. The members of version 2 and their numbers are in visitStoredMembers() beside
 // each struct.
 
@@ -36,7 +38,7 @@ json objectRecord(unsigned kind, bool isFile, json members) {
 
 json unknownQuantity() { return json::array({"", ""}); }
 
-// Returns the stored members of a fields::FieldArray.
+// Returns the stored members of a fields::FieldArray, as version 2 has them.
 json arrayOf(json shape, json box, json samples, json units, json quantity) {
     return json::array(
         {std::move(shape), std::move(box), std::move(samples), std::move(units), std::move(quantity), false});
@@ -92,7 +94,8 @@ json convertedFromVersion1(json record) {
     json info = json::array({take(1), std::move(origin)});
     switch (size) {
         case 3: {
-            // The record states no box, because it contains no formula.
+            // A field in a file needs no box in its record. But version 2 has an element for it, so any box is written
+            // there.
             const json box = json::array({{-1.0, -1.0, -1.0, -1.0}, {1.0, 1.0, 1.0, 1.0}});
             return objectRecord(kField, true, json::array({std::move(info), take(2), "", box, nullptr, nullptr}));
         }

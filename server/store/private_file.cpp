@@ -35,7 +35,7 @@ class FileDescriptor {
     }
     int descriptor() const { return number_; }
     bool isValid() const { return number_ >= 0; }
-    /// Returns a path to the open file that stays valid if the file is renamed.
+    /// Returns a path to the open file. The path stays valid if the file is renamed.
     std::string name() const { return "/proc/self/fd/" + std::to_string(number_); }
 
   private:
@@ -62,8 +62,8 @@ void createFolders(const std::filesystem::path& folder) {
 
 enum class PermissionHandling : std::uint8_t { leave, tighten };
 
-/// Checks that a file is safe to use (see requireOwnRegularFileIfExists()). If `permissions` is `tighten`, sets its
-/// mode to 0600. Returns false if the file does not exist.
+/// Checks a file as requireOwnRegularFileIfExists() does. If `permissions` is `tighten`, also sets the mode of the file
+/// to 0600. Returns whether the file exists.
 bool checkFile(const std::string& path, PermissionHandling permissions) {
     // Open the file with O_PATH: closing such a descriptor keeps the locks of this process on the file, whereas closing
     // an ordinary descriptor releases them all.

@@ -24,8 +24,8 @@ if not whole then return false end
 return {tonumber(fence) or 0, whole, head or '', redis.call('HGETALL', KEYS[2])})";
 
 // A Redis script that claims a session for this server. KEYS: as for kRead. ARGV: the name of this server, the expiry
-// period in milliseconds, the session's id. Returns the same as kRead, with the new fence. Redis runs kRead and kClaim
-// even if its memory is full (allow-oom), so that stored sessions can still be opened.
+// period in milliseconds, the session's id. Returns the same as kRead, with the new fence. The flag allow-oom lets
+// Redis run the script even if its memory is full, so that stored sessions can still be opened.
 constexpr const char* kClaim = R"(#!lua flags=allow-oom
 local owner, whole, head = unpack(redis.call('HMGET', KEYS[1], 'owner', 'whole', 'head'))
 if not whole then return false end
@@ -40,11 +40,12 @@ redis.call('PEXPIRE', KEYS[2], ARGV[2])
 return {fence, whole, head or '', redis.call('HGETALL', KEYS[2])})";
 
 // A Redis script that saves a session. KEYS: as for kRead. ARGV: the name of this server, the expiry period in
-// milliseconds, the fence, the hash of the token, the token as plain text (empty if not to be stored), the head, the
-// whole (empty if unchanged), 1 if no client has the session open anymore, the number of objects to add, their keys and
-// bytes, the keys of the objects to drop. Returns the number of a SaveResult.
-// Two servers can have equal fences only if Redis has lost writes. Then only the owner may save. Saving the head alone
-// does not restart the expiry period, because a save of the whole session follows within a second.
+// milliseconds, the fence, the hash of the token, the token as plain text (empty if it must not be stored), the head,
+// the whole (empty if unchanged), 1 if no client has the session open anymore and else 0, the number of objects to add,
+// the key and the bytes of each of them, the keys of the objects to drop. Returns the number of a SaveResult. Two
+// servers can have equal fences for a session only if Redis has lost writes. In this case, only the owner in the record
+// may save. Saving the head alone does not restart the expiry period, because a save of the whole session follows
+// within a second.
 constexpr const char* kSave = R"(
 local fence, owner = unpack(redis.call('HMGET', KEYS[1], 'fence', 'owner'))
 local mine = tonumber(ARGV[3])
@@ -83,8 +84,8 @@ if owner and owner ~= '' and owner ~= ARGV[1] then return end
 redis.call('DEL', KEYS[1], KEYS[2]))";
 
 // A Redis script that reads and empties the list of sessions that other servers have claimed from this server. KEYS:
-// the list. Returns {number of keys in Redis, id, fence, id, fence, …}. A fence is the one in the session's record, or
-// 0 if there is no record.
+// the key of the list. Returns {number of keys in Redis, id, fence, id, fence, …}. Each fence is the one in the record
+// of the session before it, or 0 if there is no record.
 constexpr const char* kPoll = R"(#!lua flags=allow-oom
 local reply = {redis.call('DBSIZE')}
 for _, id in ipairs(redis.call('LRANGE', KEYS[1], 0, -1)) do
@@ -95,9 +96,9 @@ redis.call('DEL', KEYS[1])
 return reply)";
 
 // Constants to find out whether servers of version 0.1.0 use this Redis. kOlderSave is the SHA-1 of the save script of
-// version 0.1.0, which Redis then knows. kHashedSince is a key in Redis; its value is the time, in milliseconds of
-// Redis's clock, at which a later version first noticed servers of version 0.1.0. kNoteSince is a script that sets this
-// value if it is not set, and returns it.
+// version 0.1.0; if Redis knows this script, there are such servers. kHashedSince is a key in Redis. Its value is the
+// time, in milliseconds of Redis's clock, at which a later version first noticed such servers. kNoteSince is a script
+// that sets this value to ARGV[1] if it is not set, and returns it.
 constexpr const char* kOlderSave = "3f542d461100cccfdf5dc6b4716be03d88d48eae";
 constexpr const char* kHashedSince = "oval4d:tokens_hashed_since";
 constexpr const char* kNoteSince = R"(#!lua flags=allow-oom
@@ -106,7 +107,8 @@ return redis.call('GET', KEYS[1]))";
 
 constexpr auto kConnectTimeout = 1000ms;
 
-// The part of the keys in braces, a hash tag of Redis, keeps both keys of a session on one node of a Redis cluster.
+// The part in braces, a hash tag of Redis, is the same in both keys of a session, so that a Redis cluster keeps them on
+// one node.
 std::string sessionKey(const std::string& id) { return "oval4d:{" + id + "}"; }
 std::string objectsKey(const std::string& id) { return sessionKey(id) + ":polytopes"; }
 
@@ -118,7 +120,8 @@ std::string replyText(const redisReply& reply) {
     return reply.str == nullptr ? std::string() : std::string(reply.str, reply.len);
 }
 
-// Returns the session record in a reply to the scripts kRead or kClaim.
+// Returns the session record in a reply to kRead or kClaim, or an empty optional if the reply says that there is no
+// session.
 std::optional<SessionRecord> sessionRecordFrom(const redisReply& reply) {
     if (reply.type != REDIS_REPLY_ARRAY || reply.elements != 4) return std::nullopt;
     SessionRecord record{replyText(*reply.element[1]),
@@ -133,7 +136,7 @@ std::optional<SessionRecord> sessionRecordFrom(const redisReply& reply) {
 }
 
 // Returns whether an error means that Redis lacks memory for a write, or that a key has a value of the wrong type.
-// After such an error, Redis still answers requests on the same connection.
+// After such an error, the connection can still be used.
 bool isRefusedWrite(std::string_view error) { return error.starts_with("OOM ") || error.starts_with("WRONGTYPE "); }
 
 template <typename Number>
@@ -202,7 +205,8 @@ void RedisStore::connect() {
 }
 
 // Sets plainUntil_, the time until which tokens are also stored as plain text for servers of version 0.1.0: the time at
-// which such servers were first noticed, plus the expiry period. If there are no such servers, sets a time in the past.
+// which such servers were first noticed, plus the expiry period. If there are no such servers, sets plainUntil_ to a
+// time in the past.
 void RedisStore::updatePlainTokenDeadline() {
     plainUntil_ = {};
     const Reply known = sendAndReceive({"SCRIPT", "EXISTS", kOlderSave});
@@ -238,7 +242,7 @@ void RedisStore::send(const CommandWords& command) {
     }
 }
 
-/// Returns the next reply, which may be an error reply.
+/// Returns the next reply, which may be an error reply. Throws StoreError if none arrives.
 RedisStore::Reply RedisStore::receiveReplyOrError() {
     void* reply = nullptr;
     if (redisGetReply(context_.get(), &reply) != REDIS_OK || reply == nullptr) disconnectAndThrow();
@@ -290,7 +294,8 @@ std::optional<SessionRecord> RedisStore::claim(const std::string& id) {
 }
 
 /// Sends all updates before reading the replies (pipelining), so that the batch takes one round trip. Throws
-/// StoreNotWritable if Redis refuses an update but still answers requests. The other updates have been executed then.
+/// StoreNotWritable if Redis refuses some of the updates (see isRefusedWrite()). All other updates have then been
+/// executed.
 std::vector<SaveResult> RedisStore::save(std::span<const RecordUpdate> updates) {
     if (!context_) connect();
     for (const RecordUpdate& update : updates) {
@@ -339,7 +344,7 @@ void RedisStore::remove(std::span<const std::string> ids) {
 
 void RedisStore::restartExpiry(std::span<const std::string> ids) {
     if (!context_) connect();
-    const bool hashed = !alsoStoresPlainTokens();  // if true, tokens stored as plain text are deleted below
+    const bool hashed = !alsoStoresPlainTokens();  // whether tokens that are stored as plain text must be deleted
     for (const std::string& id : ids) {
         send({"PEXPIRE", sessionKey(id), std::to_string(expiry_.count())});
         send({"PEXPIRE", objectsKey(id), std::to_string(expiry_.count())});

@@ -11,12 +11,11 @@ struct redisReply;    // NOLINT(readability-identifier-naming)
 
 namespace oval4d::store {
 
-/// A session store in Redis. Each session is one Redis hash, and its objects are another; Redis itself expires both.
-/// Atomic operations are Lua scripts: for example, a claim increments the fence (the number of the claim), and a save
-/// compares the fence.
-/// Each server has a Redis list of the ids of sessions that other servers have claimed from it. If this server has
-/// claimed a session back since, the id in the list is out of date; the fence in the record shows this. Requires Redis
-/// 7 or later.
+/// A session store in Redis. The record of a session is one Redis hash, and its objects are another; Redis itself
+/// deletes both when they expire. Operations that must be atomic are Lua scripts: for example, a claim increments the
+/// fence (the number of the claim), and a save compares the fence. Each server has a Redis list of the ids of sessions
+/// that other servers have claimed from it. If the server has claimed a session back since then, the id in its list is
+/// out of date; the fence in the session's record shows this. Requires Redis 7 or later.
 class RedisStore final : public Store {
   public:
     using Clock = std::chrono::steady_clock;
@@ -63,10 +62,10 @@ class RedisStore final : public Store {
     std::string host_, user_, password_, database_;
     int port_ = 6379;
     const Milliseconds expiry_, timeout_;
-    const std::string self_;  // random name that identifies this server in Redis
+    const std::string self_;  // a random name that identifies this server in Redis
     const ClockFunction<Clock> now_;
     std::unique_ptr<redisContext, RedisDeleter> context_;
-    // The SHA-1 digests of the loaded Lua scripts, by which Redis calls them.
+    // The SHA-1 digests of the Lua scripts, by which this server calls the scripts in Redis.
     std::string readScript_, claimScript_, saveScript_, hashScript_, removeScript_, pollScript_;
     // Until this time, tokens are also stored as plain text, because oval4d servers of version 0.1.0 use the same
     // Redis.

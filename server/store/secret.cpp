@@ -47,7 +47,7 @@ std::string hashToken(std::string_view token) {
     initializeLibsodium();
     std::array<unsigned char, crypto_generichash_BYTES> hash{};
     crypto_generichash(hash.data(), hash.size(), asUnsignedBytes(token), token.size(), nullptr, 0);
-    std::string text(2 * hash.size() + 1, '\0');  // room for the terminating zero
+    std::string text(2 * hash.size() + 1, '\0');  // with room for the terminating zero of sodium_bin2hex()
     sodium_bin2hex(text.data(), text.size(), hash.data(), hash.size());
     text.pop_back();
     return text;

@@ -12,13 +12,13 @@ namespace oval4d::store {
 /// 2–7). All characters are allowed in URLs and file names.
 std::string randomName(std::size_t bytes);
 
-/// Returns the hash of a token: 256 bits of BLAKE2b in lowercase hexadecimal. Stores keep this hash in place of the
-/// token. A fast hash without salt is sufficient: a token is 160 random bits, so unlike a password, it cannot be
-/// guessed.
+/// Returns the hash of a token: 256 bits of BLAKE2b in lowercase hexadecimal. Stores keep this hash instead of the
+/// token. A fast hash without salt is sufficient: a token has 160 random bits, so it cannot be guessed as passwords
+/// can.
 std::string hashToken(std::string_view token);
 
-/// Returns a digest by which damage of a record is noticed: 128 bits of BLAKE2b over `parts` and their lengths, as 16
-/// bytes.
+/// Returns the digest of a record that consists of `parts`: 128 bits of BLAKE2b over the lengths and bytes of the
+/// parts, as 16 bytes. A store notices a damaged record by its digest.
 std::string recordDigest(std::span<const std::string_view> parts);
 
 /// Returns whether two secrets are equal. For equal lengths, the running time does not depend on the position of the

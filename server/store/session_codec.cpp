@@ -12,10 +12,10 @@
 #include "store/object_list.hpp"
 #include "store/state_codec.hpp"
 
-// A session is encoded as two CBOR arrays, called the whole and the head. In the whole, the number of a member of the
-// session is its index (see visitStoredMembers() in session/session.hpp). Index 0 contains the version, and index 2 the
-// list of objects. The head has only four elements: version, revision, list of objects, current state. Arrays with
-// members that this version does not know are refused.
+// A session is encoded as two CBOR arrays, called the whole and the head. The whole has the members of the session; the
+// index of a member is the number that visitStoredMembers() in session/session.hpp gives it. Index 0 contains the
+// version, and index 2 the list of objects. The head has only four elements: version, revision, list of objects,
+// current state. Arrays with members that this version does not know are refused.
 
 namespace oval4d::store {
 
@@ -34,7 +34,7 @@ constexpr std::uint64_t kMaxRevision = 1ULL << 53U;  // 2^53; JSON readers repre
 template <typename T>
 concept StateList = std::same_as<typename T::value_type, State>;
 
-/// A visitor that finds the number of elements in the record of a whole session.
+/// A visitor that finds the number of elements of the array that encodes a whole session.
 class SessionMemberCounter {
   public:
     template <typename T>
@@ -100,8 +100,8 @@ class SessionWriter : public MemberWriter {
     ObjectListEncoder objects_;
 };
 
-/// A visitor that reads the members of a session among the first `size` elements of its record. States and loaded
-/// objects require a decoder of the list of objects; `objects` may be null if there are none among these elements.
+/// A visitor that reads the members of a session among the first `size` elements of its record. `objects` decodes the
+/// list of objects, which states and loaded objects need; it may be null if there are none among these elements.
 class SessionReader : public MemberReader {
   public:
     SessionReader(const json& record, std::size_t size, ObjectListDecoder* objects)
@@ -171,7 +171,7 @@ Session decodeSession(std::string_view whole, std::string_view head, const Objec
         const json newerValue = parseRecord(head);
         refuseUnknownMembers(newerValue, kHeadMembers);
         Session newer;
-        decodeInto(newer, newerValue, kObjects, nullptr);  // reads only the revision
+        decodeInto(newer, newerValue, kObjects, nullptr);  // reads only the revision, the element before kObjects
         if (newer.revision <= session.revision) return session;
         ObjectListDecoder newerObjects(newerValue.at(kObjects), objectOf, cache);
         decodeInto(newer, newerValue, kHeadMembers, &newerObjects);

@@ -59,7 +59,7 @@ Database::Database(std::string path) : path_(std::move(path)) {
         // The file may be damaged or forged: do not trust its schema.
         sqlite3_db_config(handle_, SQLITE_DBCONFIG_DEFENSIVE, 1, nullptr);
         sqlite3_db_config(handle_, SQLITE_DBCONFIG_TRUSTED_SCHEMA, 0, nullptr);
-        // These statements do not read the file, so they also succeed on a damaged file. The caller needs the open
+        // These statements do not read the file, so they succeed even if the file is damaged. The caller needs the open
         // database to copy the intact sessions.
         execute(
             "PRAGMA locking_mode = EXCLUSIVE; PRAGMA cell_size_check = ON;"

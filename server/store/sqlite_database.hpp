@@ -19,7 +19,7 @@ struct sqlite3_stmt;
 
 namespace oval4d::store {
 
-/// An error: the file is corrupt, or is not an SQLite database.
+/// An error: a file is damaged, or is not an SQLite database.
 class CorruptDatabase : public StoreError {
   public:
     using StoreError::StoreError;
@@ -29,8 +29,8 @@ class CorruptDatabase : public StoreError {
 /// functions, hash_of(token) and digest_of(part, …), which call hashToken() and recordDigest() of secret.hpp.
 class Database {
   public:
-    /// Opens an existing file. Throws StoreError if there is none. Does not read the file, so damage is noticed only
-    /// when the first statement is executed.
+    /// Opens an existing file. Throws StoreError if there is none. Does not read the file, so damage is noticed only by
+    /// the first statement that does.
     explicit Database(std::string path);
     Database(const Database&) = delete;
     Database& operator=(const Database&) = delete;
@@ -38,12 +38,12 @@ class Database {
 
     const std::string& path() const { return path_; }
     /// Executes one or more SQL statements and ignores their results. Throws StoreNotWritable if the file cannot be
-    /// written, CorruptDatabase if the file is damaged, and StoreError for any other error. All functions here that
-    /// execute a statement throw these.
+    /// written, CorruptDatabase if the file is damaged, and StoreError for any other error. All other functions in this
+    /// file that prepare or execute statements throw the same errors.
     void execute(const char* sql);
     /// Executes a query and returns the first value of its first row, or 0 if the query returns no rows.
     std::int64_t queryNumber(const char* sql);
-    /// Makes the destructor keep the write-ahead log file. Otherwise, the destructor writes the log to the database
+    /// Makes the destructor keep the write-ahead log. Without this call, the destructor writes the log to the database
     /// file and deletes the log. Must be called before a damaged file and its log are renamed.
     void keepWriteAheadLogOnClose();
 
@@ -64,12 +64,12 @@ class Statement {
     Statement& operator=(const Statement&) = delete;
     ~Statement();
 
-    /// bindText(), blob() and number() bind a value to the next parameter of the statement.
+    /// bindText(), blob() and bindNumber() bind a value to the next parameter of the statement.
     Statement& bindText(std::string_view value);
     Statement& blob(std::string_view value);
     Statement& bindNumber(std::int64_t value);
 
-    /// Executes the statement up to its next row. Returns false if there are no more rows.
+    /// Executes the statement up to its next row. Returns whether there is such a row.
     bool step();
     /// bytesAt() and numberAt() return a value of the current row. Columns count from 0.
     std::string bytesAt(int column) const;

@@ -17,7 +17,7 @@ class SessionIdScan {
         const bool all = collectIds("SELECT id FROM session ORDER BY id", {});
         if (all) return;
         collectIds("SELECT id FROM session ORDER BY id DESC", {});
-        // Ids are random names in base 32.
+        // All ids begin with two of these letters, because they are random names in base 32 (see randomName()).
         constexpr std::string_view kLetters = "234567abcdefghijklmnopqrstuvwxyz";
         for (const char first : kLetters) {
             for (const char second : kLetters) {
@@ -37,7 +37,8 @@ class SessionIdScan {
     bool complete = true;
 
   private:
-    /// Adds the ids that a query returns to `found`. Returns false if an error ended the query early.
+    /// Adds to `found` the ids that a query returns. `bounds` are the values of the query's parameters. Returns false
+    /// if an error ended the query early.
     bool collectIds(const char* sql, const std::vector<std::string>& bounds) {
         try {
             Statement statement(from_, sql);
@@ -57,9 +58,9 @@ struct SalvagedSession {
     std::vector<std::pair<std::string, std::string>> objects;
 };
 
-/// Reads a session. Returns an empty optional if the session is missing, or if a part does not match its digest. Throws
-/// StoreError if a page is damaged. `hashed` says whether the file has schema version 2, with hashed tokens and
-/// digests.
+/// Reads a session. Returns an empty optional if the session is missing, or if its record or an object does not match
+/// its digest. Throws StoreError if a page is damaged. `hashed` says whether the file has schema version 2, with hashed
+/// tokens and digests.
 std::optional<SalvagedSession> readSession(Database& from, bool hashed, const std::string& id) {
     Statement session(from, hashed
                                 ? "SELECT token_hash, whole, head, fence, touched, changed FROM session WHERE id = ?1 "

@@ -11,7 +11,7 @@ namespace oval4d::store {
 
 namespace {
 
-constexpr std::size_t kFirstPageSize = 4096;  // size in bytes of the first page of a store's file
+constexpr std::size_t kFirstPageSize = 4096;  // the size of the first page of a store's file, in bytes
 
 // The bytes of application_id in the header of an SQLite file, and their offset from the start of the file.
 constexpr std::string_view kApplicationId = "ov4d";

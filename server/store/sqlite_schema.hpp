@@ -5,8 +5,8 @@
 
 namespace oval4d::store {
 
-/// The version of the schema. Files store the version as user_version. Version 1 has no digests, and stores tokens as
-/// plain text.
+/// The version of the schema, which each file contains as its user_version. Version 1 has no digests, and stores tokens
+/// as plain text.
 inline constexpr int kSchemaVersion = 2;
 inline constexpr const char* kSchema = R"(
     CREATE TABLE session (
@@ -26,10 +26,10 @@ inline constexpr const char* kSchema = R"(
     PRAGMA application_id = 1870017636;
     PRAGMA user_version = 2;)";
 
-/// Throws StoreError if the file exists and is not a session store of oval4d. The server must neither change nor rename
-/// such a file. The first page of a store contains the application_id of kSchema; in version 1, it contains the names
-/// of the tables instead. An empty file is accepted. A database without tables is accepted, too, because its tables may
-/// still be in the write-ahead log.
+/// Throws StoreError if the file `path` exists and is not a session store of oval4d. The server must neither change nor
+/// rename such a file. The first page of a store contains the application_id of kSchema; in version 1, it contains the
+/// text of `CREATE TABLE session` instead. An empty file is accepted. A database without tables is accepted, too,
+/// because its tables may still be in the write-ahead log.
 void refuseForeignFile(const std::string& path);
 
 }  // namespace oval4d::store

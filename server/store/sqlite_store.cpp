@@ -18,7 +18,7 @@ namespace {
 constexpr std::size_t kPageSize = 4096;
 // The maximum number of free pages that one call of pollTakenOverSessions() returns to the file system.
 constexpr std::int64_t kMaxReleasedPages = 1024;
-constexpr std::size_t kMaxListedIds = 20;  // maximum number of session ids in a log line
+constexpr std::size_t kMaxListedIds = 20;  // the maximum number of session ids in a log line
 
 // Returns the maximum number of pages of the database file: three quarters of the quota. The rest of the quota is for
 // the write-ahead log. The log may grow to the size that triggers a checkpoint, plus the pages of one transaction.
@@ -50,7 +50,7 @@ std::string joinIds(const std::set<std::string>& ids) {
     return text;
 }
 
-/// Returns an unused path. The caller renames a damaged file to this path.
+/// Returns an unused path, to which the caller renames a damaged file.
 std::string pathForDamagedFile(const std::string& path) {
     const auto seconds = std::chrono::floor<std::chrono::seconds>(std::chrono::system_clock::now());
     const std::string name =
@@ -228,8 +228,8 @@ void SqliteStore::salvageDamagedFile(const std::string& why) {
     }
 }
 
-/// Logs the sessions whose records do not match their digests. check() does not find them, because SQLite's integrity
-/// check does not notice bit errors within a record. Damaged records are kept for inspection.
+/// Logs the sessions whose records do not match their digests. checkDatabase() does not find them, because SQLite's
+/// integrity check does not notice bit errors within a record. Damaged records are kept for inspection.
 void SqliteStore::logDamagedRecords() {
     std::set<std::string> damaged;
     Statement statement(

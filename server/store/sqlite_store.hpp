@@ -15,16 +15,17 @@ namespace oval4d::store {
 /// latest commits, but does not damage the file.
 ///
 /// The whole file is checked when it is opened. If damaged pages are found, then or later, the intact sessions are
-/// copied to a new file, and the damaged file is renamed to PATH.damaged-TIME. Records contain digests. A record that
-/// does not match its digest, on an intact page, is left unchanged. Both kinds of damage are logged.
+/// copied to a new file, and the damaged file is renamed to PATH.damaged-TIME. A record on an intact page may also be
+/// damaged: it then does not match its digest, which is stored with it. Such a record is left unchanged. Both kinds of
+/// damage are logged.
 class SqliteStore final : public Store {
   public:
     using Clock = std::chrono::system_clock;  ///< the wall clock, because times in records must outlive the process
 
     /// Opens or creates the file. `quota` is the maximum size, in bytes, of the file and its write-ahead log together.
-    /// Only an update larger than an eighth of the quota may exceed the quota for a short time. Throws StoreError if
-    /// another server uses the file, or if the file is not a session store of oval4d, is not a regular file, or is not
-    /// owned by the user of this process.
+    /// Only while an update larger than an eighth of the quota is saved, the two files may exceed the quota. Throws
+    /// StoreError if another server uses the file, or if the file is not a session store of oval4d, is not a regular
+    /// file, or is not owned by the user of this process.
     explicit SqliteStore(std::string path, std::size_t quota = kDefaultQuota, ClockFunction<Clock> now = Clock::now);
 
     WriteTiming writeTiming() const override { return WriteTiming::soon; }
@@ -61,7 +62,7 @@ class SqliteStore final : public Store {
     const ClockFunction<Clock> now_;
     // The open database. Null after a failed repair: the next operation then opens the file again.
     std::unique_ptr<Database> database_;
-    std::string damage_;  // damage that the next operation must repair; empty if none
+    std::string damage_;  // the damage that the next operation must repair; empty if there is none
     std::size_t size_ = 0;
 };
 

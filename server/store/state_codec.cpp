@@ -48,14 +48,14 @@ class StateReader : public MemberReader {
 
 // --- Checks of a state whose members have been read
 //
-// The checks concern single members, and how members fit each other and the object. Without them, a damaged record
-// could produce, for example, a state with a million slices instead of an error. All limits are at least as wide as the
-// limits for clients.
-// A later version may allow more, or build an object with more elements. So a value beyond a limit, or an element that
-// the object lacks, throws NewerVersionRecord. After UnreadableRecord, clients would forget the session.
+// The checks concern the values of single members, and whether members fit each other and the object. Without them, a
+// damaged record could produce, for example, a state with a million slices instead of an error. All limits are at least
+// as wide as the limits for clients. A later version may allow more, or build an object with more elements. So a value
+// beyond a limit, or an element that the object lacks, throws NewerVersionRecord. After UnreadableRecord, clients would
+// forget the session.
 
-// The fraction by which spacing, offset and focus point may exceed their limits, because of rounding errors. The limits
-// are proportional to the circumradius.
+// The fraction of their limits by which spacing, offset and focus point may exceed the limits, because of rounding
+// errors. The limits are multiples of the circumradius.
 constexpr double kSlack = 1e-9;
 
 void check(const session::HyperplaneSettings& slices, double circumradius) {
@@ -104,8 +104,8 @@ void check(const State& state) {
     if (state.turning && !state.lastTurn) throwUnreadableRecord("a state is turning, but has no last rotation");
 }
 
-// Clamps the settings to the bounds of a field in the server's data folder. Since the state was stored, another file
-// with another box may have replaced the field's file.
+// If the state shows a field from a file in the server's data folder, clamps the settings that are limited by the
+// field's box to their limits. Since the state was stored, another file with another box may have replaced the file.
 void clampToReplacedField(State& state) {
     const fields::Field* const field = slicing::fieldIn(state.source);
     if (field == nullptr || !field->source) return;

@@ -17,7 +17,7 @@ namespace oval4d::store {
 
 using Milliseconds = std::chrono::milliseconds;
 
-/// A function that returns the current time of a clock. Tests pass functions that return a virtual time.
+/// A function that returns the current time of a clock. Tests use functions that return a time of their own.
 template <typename Clock>
 using ClockFunction = std::function<typename Clock::time_point()>;
 
@@ -31,13 +31,13 @@ struct SessionCredentials {
 /// with a lower fence than that in the record.
 using FencingToken = std::uint64_t;
 
-/// The fence of a new session, which no other server has claimed.
+/// The fence of a new session, which no server has claimed yet.
 inline constexpr FencingToken kFirstFence = 1;
 
 /// The record of a session, as read() and claim() return it.
 struct SessionRecord {
-    /// `whole` is the whole session, encoded by encodeWhole() (session_codec.hpp). `head` is a later state with its
-    /// revision, encoded by encodeHead(); empty if `whole` contains the latest state.
+    /// `whole` is the whole session, encoded by encodeWhole() (session_codec.hpp). `head` is a later current state with
+    /// its revision, encoded by encodeHead(); empty if `whole` contains the latest state.
     std::string whole, head;
     /// The session's objects that cannot be built from their names, as pairs (key, encoded object).
     std::vector<std::pair<std::string, std::string>> objects;
@@ -64,7 +64,7 @@ struct RecordUpdate {
 enum class SaveResult : std::uint8_t {
     saved,
     claimed,  ///< not saved, because another server has claimed the session
-    missing,  ///< not saved, because the store lacks the session and the update has no `whole`
+    missing,  ///< not saved, because the store lacks the session and RecordUpdate::whole is empty
 };
 
 /// A session that another server has claimed from this server.
@@ -110,12 +110,12 @@ class Store {
     virtual std::string name() const = 0;
 
     /// Returns the hash of a stored session's token, as hashToken() in secret.hpp computes it. Returns an empty
-    /// optional if the session is not stored. Only a Redis store that servers of version 0.1.0 may still use keeps the
-    /// token itself.
+    /// optional if the session is not stored. The token itself is stored only in a Redis that servers of version 0.1.0
+    /// may still use.
     virtual std::optional<std::string> tokenHash(const std::string& id) = 0;
 
-    /// Returns whether the record of a session is known to be damaged. Then the stored hash may be wrong, so that even
-    /// the correct token does not match it.
+    /// Returns whether the record of a session is known to be damaged. If so, the stored hash may be wrong, so that
+    /// even the correct token does not match it.
     virtual bool isDamaged(const std::string& /*id*/) { return false; }
 
     /// Returns the record of a session, or an empty optional if the session is not stored. Changes nothing.
@@ -138,10 +138,10 @@ class Store {
     /// pinned sessions alone.
     virtual std::size_t evict(std::span<const RecordUpdate> updates, const PinnedPredicate& isPinned) = 0;
 
-    /// Removes sessions from the store, except sessions that another server has claimed.
+    /// Removes the sessions with these ids from the store, except sessions that another server has claimed.
     virtual void remove(std::span<const std::string> ids) = 0;
 
-    /// Restarts the expiry period of sessions, as saving or claiming a session does.
+    /// Restarts the expiry period of the sessions with these ids, as saving or claiming a session does.
     virtual void restartExpiry(std::span<const std::string> ids) = 0;
 
     /// Removes the sessions whose expiry period began more than `age` ago. Returns their number. Does nothing and
@@ -156,7 +156,7 @@ class Store {
     virtual std::size_t size() const = 0;
 };
 
-/// Returns an estimate of the maximum number of bytes by which an update enlarges a store.
+/// Returns an estimate of the number of bytes by which an update enlarges a store at most.
 inline std::size_t estimateStoredSize(const RecordUpdate& update) {
     constexpr std::size_t kOverhead = 640;  // bytes for the id, the hash, the times and the index entries of a row
     std::size_t bytes = kOverhead + update.head.size() + update.whole.size();

@@ -1,5 +1,5 @@
 #pragma once
-// Keeps track of the objects of each session that are in the store, so that an object is written only once.
+// Remembers which objects of each session are in the store, so that each object is written only once.
 
 #include <cstddef>
 #include <cstdint>
@@ -13,8 +13,8 @@
 
 namespace oval4d::store {
 
-/// The keys under which a session's objects are stored, by ObjectInfo::serial (the number of the object in this
-/// process).
+/// The keys under which a session's objects are stored. The index of the map is ObjectInfo::serial, the number of the
+/// object in this process.
 using KeysBySerial = std::map<std::uint64_t, std::string>;
 
 /// A table of the objects of each session: the key of each object, and whether the store has the object. Not
@@ -24,15 +24,14 @@ class StoredObjectKeys {
     /// Records that the store has these objects of a session, and no others.
     void setStored(const std::string& session, const KeysBySerial& keys);
 
-    /// Encodes the changes of a session. Sets `update.head`, `update.changed` and `update.whole` (with at most
-    /// `maxUndo` undo steps and `maxUndo` redo steps). Adds objects that the store lacks to `update.objects`. If the
-    /// whole session is written, also adds the keys of objects that the session no longer contains to `update.dropped`.
-    /// Returns the serial numbers of the added objects.
+    /// Encodes the changes of a session. Sets `update.head`, `update.changed` and `update.whole`, which contains at
+    /// most `maxUndo` undo steps and `maxUndo` redo steps. Adds to `update.objects` the objects that the store lacks.
+    /// If the whole session is written, also adds to `update.dropped` the keys of the objects that the session no
+    /// longer contains. Returns the serial numbers of the objects in `update.objects`.
     std::vector<std::uint64_t> encodeChanges(const std::string& session, const PendingChanges& changes,
                                              std::size_t maxUndo, RecordUpdate& update);
 
-    /// Records that the store has saved `update`, an update made by encodeChanges(). `added` is the result of
-    /// encodeChanges().
+    /// Records that the store has saved `update`. encodeChanges() must have made `update`, and returned `added`.
     void recordSaved(const std::string& session, const std::vector<std::uint64_t>& added, const RecordUpdate& update);
 
     /// markObjectsLost() records that the store has lost the objects of a session. markAllObjectsLost() records this

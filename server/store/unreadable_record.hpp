@@ -4,7 +4,8 @@
 
 namespace oval4d::store {
 
-/// An error: bytes are not a valid record of a session or object, or have a version that this program does not read.
+/// An error: bytes are not a valid record of a session or object, or refer to an object that is missing or cannot be
+/// built.
 class UnreadableRecord : public std::runtime_error {
   public:
     using std::runtime_error::runtime_error;

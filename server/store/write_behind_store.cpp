@@ -17,8 +17,8 @@ using namespace std::chrono_literals;
 namespace {
 
 constexpr std::size_t kIdBytes = 10, kTokenBytes = 20;
-constexpr std::size_t kBatch = 256;  // maximum number of sessions in one write
-// The size in bytes from which a write gets no further session.
+constexpr std::size_t kBatch = 256;  // the maximum number of sessions in one write or one call of restartExpiry()
+// A write gets no further session once its records have this many bytes, or an eighth of the quota if that is less.
 constexpr std::size_t kBatchBytes = std::size_t{8} << 20U;
 constexpr auto kPollInterval = 500ms;
 constexpr auto kMaxRefreshInterval = 60s;
@@ -172,7 +172,7 @@ void WriteBehindStore::remove(const std::string& id) {
     wake_.notify_one();
 }
 
-/// Removes the object keys of a session that was evicted from memory, unless a client has opened the session again.
+/// Makes objects_ forget a session that was evicted from memory, unless a client has opened the session again.
 void WriteBehindStore::forgetObjectKeys(const std::string& id) {
     const std::lock_guard lock(mutex_);
     if (!cached_.contains(id)) objects_.forget(id);
@@ -185,7 +185,8 @@ void WriteBehindStore::discardFetched(const std::string& id) {
 
 std::size_t WriteBehindStore::sessionCount() const {
     const std::lock_guard lock(mutex_);
-    // If servers share the store (at_once), the number of stored sessions does not describe the load of this server.
+    // If servers share the store (WriteTiming::at_once), the number of stored sessions does not tell the load of this
+    // server.
     return writePolicy_ == Store::WriteTiming::at_once ? cached_.size() : storedCount_ + neverSaved_;
 }
 
@@ -208,7 +209,7 @@ WriteBehindStore::Clock::time_point WriteBehindStore::nextWakeTime() const {
 
 void WriteBehindStore::runThread() {
     // Whether a request was executed since the last write or poll. If so, a due write or poll comes before the next
-    // request. Otherwise, clients that request many sessions could delay writes forever.
+    // request. Without this rule, clients that request many sessions could delay writes forever.
     bool isOthersTurn = false;
     std::unique_lock lock(mutex_);
     for (;;) {
@@ -239,8 +240,8 @@ void WriteBehindStore::runThread() {
     }
 }
 
-/// Calls `operation`, an operation of the store, and returns its result. Reports its duration and success to the
-/// listener under the metric name `name`.
+/// Calls `operation`, an operation of the store, and returns its result. Reports the duration of the operation, and
+/// whether it succeeded, to the listener under the name `name`.
 template <typename Operation>
 auto WriteBehindStore::runAndReportTime(const char* name, Operation operation) {
     const auto start = Clock::now();
@@ -284,7 +285,8 @@ void WriteBehindStore::onStoreSucceeded() {
 
 // --- Writing
 
-/// Takes a batch of sessions from the queue, and encodes their changes as updates.
+/// Takes a batch of sessions from the queue, and appends them to `jobs`. Encodes their changes, and appends these to
+/// `updates`.
 void WriteBehindStore::takeBatch(std::vector<WriteJob>& jobs, std::vector<RecordUpdate>& updates) {
     const std::size_t maxBytes = std::min(kBatchBytes, settings_.quota / 8);
     std::size_t bytes = 0;
@@ -327,8 +329,9 @@ void WriteBehindStore::writeQueued() {
     if (std::ranges::all_of(results, [](const auto& one) { return one.has_value(); })) onStoreSucceeded();
 }
 
-/// Saves the updates. If the store is full, evicts closed sessions from the store to make room. For updates that still
-/// do not fit, returns empty optionals and calls onStoreFailed(); the other updates are saved.
+/// Saves the updates. If the store is full, evicts closed sessions from the store to make room. Returns a result for
+/// each update: empty for updates that still do not fit. Calls onStoreFailed() if there are such updates. All others
+/// are saved.
 std::vector<std::optional<SaveResult>> WriteBehindStore::saveMakingRoom(std::span<const RecordUpdate> updates) {
     std::vector<std::optional<SaveResult>> results;
     try {
@@ -414,8 +417,8 @@ void WriteBehindStore::applySaveResult(WriteJob& job, const RecordUpdate& update
     for (const SaveCallback& written : job.changes.waiting) written(result == SaveResult::saved);
 }
 
-/// Makes the changes of a failed write pending again, unless newer changes are pending. If the store is unavailable,
-/// also queues the session and calls the waiting callbacks, so that no caller waits for the store.
+/// Makes the changes of a failed write pending again, except where newer changes are pending. If the store is
+/// unavailable, also queues the session and calls the waiting callbacks, so that no caller waits for the store.
 void WriteBehindStore::requeue(WriteJob& job) {
     std::vector<SaveCallback> released;
     {
@@ -432,8 +435,8 @@ void WriteBehindStore::requeue(WriteJob& job) {
     for (const SaveCallback& written : released) written(true);
 }
 
-/// Removes a session from memory if another server has claimed it with the fence `fence` or a later one. Keeps the
-/// session if this server has claimed it back.
+/// Removes a session from memory because another server has claimed it. `fence` is the fence in the session's record.
+/// Keeps the session if its own fence is not lower, because this server has then claimed it back.
 void WriteBehindStore::dropIfTakenOver(const std::string& id, FencingToken fence) {
     std::optional<CachedSession> dropped;
     {

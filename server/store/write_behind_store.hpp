@@ -1,6 +1,6 @@
 #pragma once
-// A write-behind cache of sessions. A thread of the cache uses the session store, so that no other thread waits for a
-// disk or a network.
+// A write-behind cache of sessions. Only a thread of the cache uses the session store, so that no other thread waits
+// for a disk or a network.
 
 #include <atomic>
 #include <condition_variable>
@@ -23,9 +23,9 @@
 namespace oval4d::store {
 
 /// A write-behind cache before a Store: it keeps changes of sessions in memory and writes them to the store later. The
-/// cache holds the sessions that are open on this server, and closed sessions whose last change is not in the store
-/// yet. Only the store thread, which this object starts, uses the store. If several changes of a session are pending,
-/// only the newest state is written.
+/// cache holds the sessions that clients have open on this server, and closed sessions whose last change is not in the
+/// store yet. Only the store thread, which this object starts, uses the store. If several changes of a session are
+/// pending, only the newest version of the session is written.
 ///
 /// The store counts as unavailable from a failed operation until the next successful one. During this time, changes
 /// wait in memory, no caller waits for the store, and the cache retries with growing pauses (exponential backoff). If
@@ -38,7 +38,7 @@ namespace oval4d::store {
 class WriteBehindStore {
   public:
     struct WriteBehindSettings {
-        Milliseconds expiry{1'800'000};  ///< time after which a session is deleted if no client has it open
+        Milliseconds expiry{1'800'000};  ///< the time after which a session that no client has open is deleted
         std::size_t maxUndo = 100;       ///< maximum number of undo steps, and of redo steps, that are stored with a
                                          ///< session
         /// The maximum estimated memory, in bytes, of closed sessions that wait while the store is unavailable.
@@ -48,25 +48,26 @@ class WriteBehindStore {
     struct Listener {
         /// Called when another server has claimed a session that is open on this server.
         std::function<void(const std::string& id)> claimed;
-        /// Called when only the current state of a session was to be saved, but the store lacks the session. The
-        /// listener must save the session with SaveScope::whole.
+        /// Called when a save with SaveScope::head has found that the store lacks the session. The listener must save
+        /// the session with SaveScope::whole.
         std::function<void(const std::string& id)> missing;
         /// Called when the store becomes available again. The listener must save all open sessions, because the store
         /// may have lost data.
         std::function<void()> recovered;
-        /// Called at the end of every operation of the store, for metrics. `seconds` is the duration of the operation.
+        /// Called at the end of every operation of the store, for metrics. `operation` is its name, `seconds` its
+        /// duration, and `succeeded` says whether it threw no exception.
         std::function<void(const char* operation, double seconds, bool succeeded)> operationEnded;
     };
-    /// A session read from the cache or the store. If the session was in memory, `session` contains it. Otherwise,
-    /// `session` is empty, and the caller must decode `record` with session_codec.hpp. In both cases, the caller passes
-    /// `record.fence` to save().
+    /// A session that was read from the cache or the store. If the session was in memory, `session` contains it.
+    /// Otherwise, `session` is empty, and the caller must decode `record` with session_codec.hpp. In both cases, the
+    /// caller must later pass `record.fence` to save().
     struct FetchedSession {
         std::optional<session::Session> session;
         SessionRecord record;
     };
     using FetchResult = Result<FetchedSession>;
-    /// The part of a session to save: only the current state (encodeHead() in session_codec.hpp) or all
-    /// (encodeWhole()).
+    /// The part of a session to save: only the current state (see encodeHead() in session_codec.hpp), or the whole
+    /// session (see encodeWhole()).
     enum class SaveScope : std::uint8_t { head, whole };
 
     using Clock = std::chrono::steady_clock;
@@ -85,13 +86,13 @@ class WriteBehindStore {
     SessionCredentials createSession();
 
     /// Makes the store thread read a session and pass it to `done`, without claiming the session. Errors are those of
-    /// claimAndFetch(). The caller must not save a session that comes as `record`. Changes nothing in memory or in the
-    /// store.
+    /// claimAndFetch(). The caller must not save a session that comes as `record`. Does not change the store. A closed
+    /// session that is still in memory then counts as open again.
     void read(SessionCredentials credentials, std::function<void(FetchResult)> done);
 
-    /// Makes the store thread claim a session for this server and call `done` with the session or an error:
+    /// Makes the store thread claim a session for this server, and call `done` with the session or one of these errors:
     /// `not_found`, `bad_token`, or `internal` if the session cannot be read now. If `done` receives a record, the
-    /// caller must decode the record and then call setStoredKeys(); if decoding fails, discardFetched().
+    /// caller must decode it and then call setStoredKeys() or, if it cannot be decoded, discardFetched().
     void claimAndFetch(SessionCredentials credentials, std::function<void(FetchResult)> done);
 
     /// Returns whether this server still owns the session that it has created or fetched with this fence, as far as the
@@ -107,7 +108,7 @@ class WriteBehindStore {
     void recordUnsavedChange(const std::string& id, FencingToken fence);
 
     /// Queues the whole session, or only its current state (SaveScope::head), for writing. `fence` is the fence with
-    /// which the caller has created or fetched the session. Calls `written(true)` when the session is stored; if the
+    /// which the caller has created or fetched the session. Calls `written(true)` when the session is stored or, if the
     /// store is unavailable, at once, so that clients need not wait. Calls `written(false)` if the session will never
     /// be stored, because it was removed or evicted, or because another server has claimed it, so that `fence` is out
     /// of date.
@@ -115,7 +116,7 @@ class WriteBehindStore {
               SaveCallback written = {});
 
     /// Queues the last write of a session that no client has open anymore. The session stays in memory until it is
-    /// written.
+    /// written or evicted.
     void closeSession(const std::string& id, session::Session value);
 
     /// Deletes a closed session from memory and from the store. If the store is unavailable, the deletion from the
@@ -132,10 +133,10 @@ class WriteBehindStore {
     /// Returns the number of sessions with changes that may not be in the store yet. With WriteTiming::at_close, open
     /// sessions do not count, because sessions are then written only when they are closed.
     std::size_t unsaved() const;
-    /// Returns the text of the last error of the store, or an empty string while the store is available.
+    /// Returns the text of the last error of the store, or an empty string if the store is available.
     std::string lastError() const;
 
-    /// Writes pending changes for about `limit` at most, and then ends the store thread.
+    /// Lets the store thread write pending changes for at most about `limit`, and ends the thread.
     void stop(Milliseconds limit);
 
   private:
@@ -147,7 +148,7 @@ class WriteBehindStore {
         std::vector<std::uint64_t> added;
     };
 
-    // How to fetch a session that is not in memory: only read its record, or also claim it.
+    // How to fetch a session that is not in memory: only read its record, or also claim the session.
     enum class FetchMode : std::uint8_t { read, claim };
     void queueFetch(SessionCredentials credentials, FetchMode access, std::function<void(FetchResult)> done);
 
@@ -192,14 +193,14 @@ class WriteBehindStore {
     // Tasks that do not use the store. The store thread runs these tasks before all other work.
     std::deque<std::function<void()>> tasks_;
     std::deque<std::function<void()>> requests_;  // calls of read(), claimAndFetch() and remove(), which take turns
-                                                  // with writes and polls.
+                                                  // with writes and polls
     std::set<std::string> removals_;              // ids to remove from the store
     std::size_t storedCount_ = 0;                 // number of sessions in the store at the last poll
     std::size_t neverSaved_ = 0;                  // number of sessions that have never been in the store
     std::string lastError_;
-    // retryAt_ is the earliest time of the next write, and pollAt_ the time of the next poll().
+    // `retryAt_` is the earliest time of the next write, and `pollAt_` the time of the next poll().
     Clock::time_point retryAt_, pollAt_;
-    Clock::time_point readAt_;  // the earliest time of the next read
+    Clock::time_point readAt_;  // the earliest time of the next read from the store
     bool stopping_ = false;
     // The time at which the thread ends, even if changes are pending. Valid only if stopping_.
     Clock::time_point stopAt_;

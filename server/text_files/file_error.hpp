@@ -10,7 +10,7 @@ namespace oval4d::text_files {
 struct FileError {
     std::size_t line = 0;  ///< the line of the fault, counted from 1; 0 if the fault is not in one line
     std::string reason;
-    bool tooLarge = false;  ///< whether the file exceeds a limit
+    bool tooLarge = false;  ///< whether the reason is that the file exceeds a limit, such as a maximum number of points
     /// The column of a table, counted from 1; 0 if the fault is not in one column.
     std::size_t column = 0;
 };
@@ -20,8 +20,8 @@ struct FileError {
     throw FileError{line, std::move(reason), false, column};
 }
 
-/// Returns the error as a text for the user, such as "line 2, column 3: …". Returns only the reason if the line is
-/// unknown.
+/// Returns the error as a text for the user, such as "line 2, column 3: …". Returns only the reason if `error.line` is
+/// 0.
 inline std::string fileErrorText(const FileError& error) {
     if (error.line == 0) return error.reason;
     std::string text = "line " + std::to_string(error.line);

@@ -17,7 +17,8 @@ constexpr const char* kNotANumber = "is not a number";
 constexpr const char* kNotFinite = "is not a finite number";
 constexpr std::string_view kMinusSign = "\xE2\x88\x92";  // the minus sign U+2212
 
-// Returns a word without its sign, if it has a sign. Sets `negative` to whether this is a minus sign.
+// Returns a word without the sign at its beginning, if there is one. Sets `negative` to whether the sign is a minus
+// sign.
 std::string_view withoutSign(std::string_view word, bool& negative) {
     negative = word.starts_with('-') || word.starts_with(kMinusSign);
     if (word.starts_with(kMinusSign)) return word.substr(kMinusSign.size());
@@ -34,8 +35,8 @@ bool isNotFinite(std::string_view unsignedWord) {
 
 bool isExponentLetter(char c) { return c == 'e' || c == 'E' || c == 'd' || c == 'D'; }
 
-// Returns whether the absolute value of a number is less than 1. The number has the form of ParsedCoordinate::text. It
-// may be outside the range of doubles.
+// Returns whether the absolute value of a number is less than 1. The number has the form of ParsedCoordinate::text. The
+// number may be outside the range of doubles.
 bool isBelowOne(std::string_view number) {
     const std::size_t end = std::min(number.find('e'), number.size());
     const std::size_t point = std::min(number.find('.'), end);
@@ -50,7 +51,8 @@ bool isBelowOne(std::string_view number) {
     return exponent <= -places;
 }
 
-// Returns ParsedCoordinate::fault for a word with a comma, such as "0,5" or "1,", in a text with decimal points.
+// Returns the error message (ParsedCoordinate::fault) for a word with a comma, such as "0,5" or "1,". The decimal mark
+// of the text is the point.
 std::string commaFaultOf(std::string_view word) {
     CoordinateReader reader;
     if (word.ends_with(',') && reader.read(word.substr(0, word.size() - 1)).fault.empty())

@@ -27,7 +27,8 @@ class CoordinateReader {
   public:
     /// Reads a word as a coordinate. Accepts the minus sign U+2212 and Fortran's exponent letter D. Numbers too small
     /// for a double become 0. Decimal points are always accepted, and decimal commas only if `mark` is
-    /// DecimalMark::comma; a number with both is an error. The `text` of the result is valid until the next call.
+    /// DecimalMark::comma; a number with a comma and a point is an error. Errors are in ParsedCoordinate::fault. The
+    /// `text` of the result is valid until the next call.
     ParsedCoordinate read(std::string_view word, DecimalMark mark = DecimalMark::point);
 
   private:
@@ -35,7 +36,7 @@ class CoordinateReader {
 };
 
 /// Returns whether a word is a number. Also returns true for numbers that CoordinateReader refuses, such as "nan",
-/// "1e20" and, even if `mark` is a point, "0,5". Returns false for "2theta".
+/// "1e20" and, if `mark` is DecimalMark::point, "0,5". Returns false for "2theta".
 bool isNumber(std::string_view word, DecimalMark mark = DecimalMark::point);
 
 /// Returns whether a word begins like a number: with a digit, after an optional sign and decimal mark, as "2theta" and

@@ -45,8 +45,8 @@ constexpr auto kKinds = std::to_array<RefusedFileKind>({
 });
 
 /// Kinds of text files that are refused. decodePlainText() compares the start of a text, in lowercase, with these
-/// signatures. The first signature must be the longest one, because decodePlainText() converts only as many characters
-/// to lowercase.
+/// signatures. The first signature must be the longest one, because its length is the number of characters that
+/// decodePlainText() compares.
 constexpr auto kTextKinds = std::to_array<RefusedFileKind>({
     {"<!doctype html", "is an HTML page"},
     {"<html", "is an HTML page"},
@@ -56,7 +56,8 @@ constexpr auto kTextKinds = std::to_array<RefusedFileKind>({
 
 constexpr std::string_view kMarkUtf8 = "\xEF\xBB\xBF", kMarkLittle = "\xFF\xFE", kMarkBig = "\xFE\xFF";
 
-// Converts UTF-16 to UTF-8. `low` is the position of the low byte in each 16-bit unit: 0 or 1.
+// Converts UTF-16 to UTF-8. `low` is the index of the low byte in each 16-bit unit: 0 for little-endian text, 1 for
+// big-endian text. Ignores the last byte of an odd number of bytes.
 std::string fromUtf16(std::string_view bytes, std::size_t low) {
     std::u16string units(bytes.size() / 2, u'\0');
     for (std::size_t i = 0; i < units.size(); ++i) {

@@ -17,15 +17,17 @@ namespace {
 
 constexpr std::string_view kCoordinates = "xyzw";
 constexpr std::size_t kRadiusIndex = 4;  // index of the radius; x, y, z and w have the indices 0 to 3
-// The maximum number of lines of text above the header or the first row.
+// The maximum number of titles: lines of text that are neither comments nor the header. The line after so many titles
+// is read as a row of numbers.
 constexpr std::size_t kMaxTitles = 10;
 
 // The positions of the coordinates and the radius among the columns of a row.
 struct ColumnLayout {
     std::array<std::optional<std::size_t>, kRadiusIndex + 1> columns;
-    std::size_t count = 0;        // number of columns of each row; 0 without a header
-    bool radiusMayMiss = false;   // whether rows may lack the radius, because it is the last column
-    std::string otherColumns;     // names of columns that are not read, in quotes
+    std::size_t count = 0;  // number of columns of each row; 0 without a header
+    // Whether the radius is the last column; if blanks separate the columns, rows may then lack it.
+    bool radiusMayMiss = false;
+    std::string otherColumns;     // the names of columns that are not read, in quotes, separated by commas
     std::string_view radiusName;  // name of the radius in the header
 
     bool hasAllCoordinates() const {
@@ -42,8 +44,7 @@ std::string_view withoutUnit(std::string_view name) {
     return before.empty() ? name : before;
 }
 
-// Removes the words that are units from the names of a header that was split at blanks, such as "[s]" from "x", "t",
-// "[s]".
+// Removes units, such as "[s]", from a list of names. The list is a header that was split at blanks: "x", "t", "[s]".
 void removeUnits(std::vector<std::string_view>& names) {
     std::size_t kept = 0;
     for (std::size_t i = 0; i < names.size(); ++i) {
@@ -148,10 +149,11 @@ class PointTableReader {
     }
 
   private:
-    // Reads the header, if there is one. `line` must be the first line of the table that is neither a title nor a
-    // comment. `comments` are the comments above it. If `line` is a row of numbers, looks for the header in `comments`,
-    // and returns false. Otherwise, reads `line` as the header or, if it names no columns, as a title, and returns
-    // true.
+    // Reads the header, if there is one. `line` is the first line that is neither a comment nor an earlier title.
+    // `comments` are the comments above `line`. If `line` contains a number, looks for the header in `comments`, and
+    // returns false. Also returns false if `line` is a faulty row of numbers. Otherwise, returns true: `line` is then
+    // the header or, if it names fewer than two coordinates, a title, which is left out. Throws a FileError if the
+    // header lacks a coordinate.
     bool readHeader(const TableLine& line, std::span<const TableLine> comments) {
         splitColumns(line.content, format_.separator, row_);
         const auto number = [&](std::string_view word) { return isNumber(word, format_.mark); };
@@ -163,7 +165,8 @@ class PointTableReader {
         const bool likeNumbers = std::ranges::any_of(row_.columns, beginsLikeANumber);
         auto layout = findColumnLayout(line.content, format_, row_, &ColumnLayout::hasAllCoordinates);
         if (!layout) layout = findColumnLayout(line.content, format_, row_, [](const ColumnLayout&) { return true; });
-        if (!layout && likeNumbers) return false;  // a faulty row; readRow() will report the word that is not a number
+        // A faulty row of numbers: readRow() will report the word that is not a number.
+        if (!layout && likeNumbers) return false;
         if (!layout) {
             warnings_.push_back("line " + std::to_string(line.number) + ", " +
                                 text::inQuotes(text::trimmed(line.content)) + ", has no numbers and was left out");
@@ -221,7 +224,8 @@ class PointTableReader {
         return layout_.count == 0 || std::ranges::find(layout_.columns, std::optional(column)) != layout_.columns.end();
     }
 
-    // Throws a FileError if `row_` has too few or too many columns, or if a column that is read is empty.
+    // Throws a FileError if `row_` has too few or too many columns, or if a column that is read is empty. If the row
+    // ends with a separator, first appends the columns that it lacks, as empty columns.
     void checkColumns(std::size_t line) {
         auto& columns = row_.columns;
         const std::size_t needed = layout_.count > 0 ? layout_.count : std::max(firstSize_, kRadiusIndex);

@@ -9,9 +9,10 @@ namespace oval4d::text_files {
 
 namespace {
 
-constexpr std::size_t kMinColumns = 4;  // one column for each coordinate of a point
+constexpr std::size_t kMinColumns = 4;  // the least number of columns of a row: one for each coordinate
 
-// Returns the position of the first separator at or after `start`, or the end of the line if there is none.
+// Returns the position of the first separator at or after `start`, or the end of the line if there is none. If the
+// separator is a blank, a tab separates columns, too.
 std::size_t endOfColumn(std::string_view line, char separator, std::size_t start) {
     const std::size_t end = separator == ' ' ? line.find_first_of(" \t", start) : line.find(separator, start);
     return std::min(end, line.size());
@@ -28,7 +29,7 @@ bool hasSeparatorInside(std::string_view line, char separator) {
     return last != std::string_view::npos && line.find(separator) < last;
 }
 
-// The counts of columns between the tabs of a line.
+// How many of the columns between the tabs of a line are not empty, and how many are numbers.
 struct TabColumnCounts {
     std::size_t filled = 0;      // number of columns that are not empty
     std::size_t numbers = 0;     // number of columns that are numbers
@@ -48,8 +49,8 @@ TabColumnCounts countTabColumns(std::string_view line, SplitTableRow& row) {
 }
 
 // Splits a line into words at blanks and tabs, and returns whether a word has a decimal comma. Returns an empty
-// optional if commas may separate the columns: if there are fewer than four words, or a word has two commas, or a comma
-// at its beginning or end. Overwrites `row`.
+// optional if commas may separate the columns: if there are fewer than four words, or if a word has two commas, or
+// begins or ends with a comma. Overwrites `row`.
 std::optional<bool> hasDecimalCommas(std::string_view line, SplitTableRow& row) {
     splitColumns(line, ' ', row);
     if (row.columns.size() < kMinColumns) return {};
@@ -81,7 +82,7 @@ bool isTableRow(std::string_view line, std::size_t least) {
     return numbers >= least && numbers >= others;
 }
 
-// Returns the line with a letter in place of each quoted text that is not a number, because such texts may contain
+// Returns the line with the letter a in place of each quoted text that is not a number. Such texts may contain
 // separators. The result is a view into `line` or `memory`.
 std::string_view withoutTexts(std::string_view line, std::string& memory) {
     std::size_t open = line.find('"');
@@ -115,9 +116,11 @@ std::optional<TableFormat> formatOfRows(TableLines lines, std::size_t least) {
         if (!isTableRow(content, least)) continue;
         any = true;
         const TabColumnCounts between = countTabColumns(content, row);
-        // In rows with fewer columns, tabs may be used like blanks.
+        // If a row has fewer columns between tabs, its tabs may be used like blanks.
         tabs = tabs || between.filled >= kMinColumns;
-        if (between.numbers >= kMinColumns) {  // only tabs separate; other marks are parts of texts
+        // With four numbers between tabs, only the tabs separate columns; semicolons and commas are parts of texts or
+        // numbers.
+        if (between.numbers >= kMinColumns) {
             decimalCommas = decimalCommas || between.decimalCommas;
             continue;
         }

@@ -10,15 +10,16 @@
 
 namespace oval4d::text_files {
 
-/// A line of a text file, split into its content and its comment. The mark of the comment is a % at the beginning of
-/// the line; otherwise, the first #.
+/// A line of a text file, split into its content and its comment. The comment begins at a mark: a % at the beginning of
+/// the line, after any blanks, or else the first #.
 struct TableLine {
-    std::size_t number = 0;    ///< the number of the line in the file, counted from 1
-    std::string_view content;  ///< the text before the mark of the comment, including blanks at its ends
-    std::string_view comment;  ///< the text after the mark, without blanks at its ends
+    std::size_t number = 0;  ///< the number of the line in the file, counted from 1
+    /// The text before the mark, including blanks at its ends; without a mark, the whole line.
+    std::string_view content;
+    std::string_view comment;  ///< the text after the mark, without blanks at its ends; empty without a mark
 };
 
-/// The lines of a text file, which next() returns one after another.
+/// The lines of a text file, which nextLine() returns one after another.
 class TableLines {
   public:
     /// `text` must outlive this object and the lines that nextLine() returns.

@@ -10,7 +10,7 @@ namespace oval4d::text_files {
 
 namespace {
 
-// Returns whether a character separates words within a line of decodePlainText().
+// Returns whether a character separates the words of a line in a text from decodePlainText().
 bool isBlank(char c) { return c == ' ' || c == '\t'; }
 
 }  // namespace

@@ -22,11 +22,11 @@ class Tokenizer {
     /// Returns the next word, on the current or a later line. Returns an empty string at the end of the text.
     std::string_view nextWord();
 
-    /// Returns the next word on the current line. Returns an empty string at the end of the line.
+    /// Returns the next word on the current line. Returns an empty string at the end of the line and before a comment.
     std::string_view nextWordOnLine();
 
-    /// Skips the rest of the current line. Then nextWordOnLine() returns an empty string, and next() continues on the
-    /// next line.
+    /// Skips the rest of the current line. Then nextWordOnLine() returns an empty string, and nextWord() continues on
+    /// the next line.
     void skipLine();
 
     /// Puts the last `count` bytes of the last word back, so that these bytes are the next word.

@@ -14,8 +14,8 @@
 
 namespace oval4d::wire {
 
-/// The types of numbers in a typed array. The value of an enumerator is the tag of little-endian arrays of this type in
-/// CBOR (RFC 8746, section 2.1).
+/// The types of numbers in a typed array, which stores numbers of one type as their bytes. The value of an enumerator
+/// is the tag of little-endian arrays of this type in CBOR (RFC 8746, section 2.1).
 enum class ArrayType : std::uint8_t { uint8 = 64, uint16 = 69, uint32 = 70, float32 = 85, float64 = 86 };
 
 /// A writer of messages in a binary encoding. JsonWriter has functions with the same names, so that one template can
@@ -36,7 +36,8 @@ class BinaryWriter {
     void value(std::uint32_t number) { value(std::uint64_t{number}); }
     void value(int number) { value(std::int64_t{number}); }
     void value(const char* text) { value(std::string_view(text)); }
-    /// Writes an integer within ±2^53 as an integer, any other number like value().
+    /// Writes an id. Integers within ±2^53 get the encoding's format of integers; other numbers are written like
+    /// value().
     void id(double number);
     /// Appends the members of `object` to the object that is being written. `object` is a complete encoded object from
     /// another writer of the same class.
@@ -58,9 +59,10 @@ class BinaryWriter {
     void pairs(std::span<const IndexPair> list);
     void triples(std::span<const IndexTriple> list);
     void numbers(std::span<const std::uint32_t> list);
-    /// Writes single precision; only JsonWriter rounds to decimals.
+    /// Writes single precision. JsonWriter's function of this name rounds to four decimals instead.
     void floatsForPictures(std::span<const float> list);
-    void image(std::span<const std::uint8_t> pixels, std::size_t columns);  ///< writes 8-bit values, row by row
+    /// Writes `pixels` as 8-bit integers; ignores `columns`.
+    void image(std::span<const std::uint8_t> pixels, std::size_t columns);
 
   protected:
     ~BinaryWriter() = default;

@@ -26,7 +26,7 @@ class BjdataWriter final : public BinaryWriter {
     void beginArray() override { buffer_.put('['); }
     void endArray() override { buffer_.put(']'); }
     void key(std::string_view name) override {
-        value(std::uint64_t{name.size()});  // starts with the marker U if the size is at most 255
+        value(std::uint64_t{name.size()});  // writes the marker U first if the size is at most 255
         buffer_.put(name);
     }
 
@@ -69,7 +69,7 @@ class BjdataWriter final : public BinaryWriter {
         key(text);
     }
     using BinaryWriter::value;
-    // Overloads that BinaryWriter also has, here without a virtual call for each number of an ordinary array.
+    // These overloads hide those of BinaryWriter, which make a virtual call for each number of an ordinary array.
     void value(std::uint32_t number) { value(std::uint64_t{number}); }
     void value(int number) { value(std::int64_t{number}); }
     void appendMembersOf(std::string_view object) override { buffer_.put(object.substr(1, object.size() - 2)); }

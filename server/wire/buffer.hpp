@@ -10,8 +10,8 @@
 namespace oval4d::wire {
 
 /// A buffer that overwrites a string through a pointer. Enlarges the string as needed. The destructor truncates the
-/// string to the bytes that were written. A string that is overwritten again keeps its memory, so nothing is allocated
-/// or filled with zeros.
+/// string to the bytes that were written. If a string is overwritten again, with at most as many bytes as before, no
+/// memory is allocated or filled with zeros.
 class OutputBuffer {
   public:
     explicit OutputBuffer(std::string& out);

@@ -10,9 +10,9 @@ namespace oval4d::wire {
 template <typename Value>
 class CachedText {
   public:
-    /// Returns the text of `value`. Calls `write(out)` at the first call, and whenever `value` differs from the
-    /// previous call; `write` must overwrite the std::string `out` with the text. The result is valid until the next
-    /// call.
+    /// Returns the text of `value`. Calls `write(out)` at the first call, and whenever `value` differs from the value
+    /// of the previous call. `write` must overwrite the std::string `out` with the text of `value`. The result is valid
+    /// until the next call.
     template <typename Write>
     std::string_view textFor(const Value& value, Write write) {
         if (text_.empty() || value_ != value) {

@@ -30,7 +30,7 @@ class CborWriter final : public BinaryWriter {
     void value(bool flag) override { buffer_.put(flag ? '\xF5' : '\xF4'); }
     void value(std::string_view text) override;
     using BinaryWriter::value;
-    // Overloads that BinaryWriter also has, here without a virtual call for each number of an ordinary array.
+    // These overloads hide those of BinaryWriter, which make a virtual call for each number of an ordinary array.
     void value(std::uint32_t number) { writeHead(0, number); }
     void value(int number) { value(std::int64_t{number}); }
     void appendMembersOf(std::string_view object) override { buffer_.put(object.substr(1, object.size() - 2)); }

@@ -19,7 +19,8 @@ namespace oval4d::wire {
 
 namespace {
 
-/// A parser of the values of export options, with an overload for each type of options.
+/// A parser of export options, with an overload of parse() for each type of value. parse() sets its last parameter or,
+/// if the value is wrong, returns an error that contains `name`, the name of the option.
 struct ExportOptionParser {
     const exports::Format& format;
     int maxSlices;
@@ -36,7 +37,7 @@ struct ExportOptionParser {
                                                  text::inQuotes(value)};
     }
 
-    /// Parses a size, within the bounds for the file format.
+    /// Parses a size in millimeters, within the bounds for the file format.
     Result<std::monostate> parse(std::string_view name, const std::string& text, double& size) const {
         const geometry::NumberRange bounds = exports::sizeRangeOf(format);
         const char* const end = text.data() + text.size();

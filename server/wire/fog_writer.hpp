@@ -29,7 +29,8 @@ class FogWriter {
     void addWalls(const slicing::SliceFog& fog);
 
     std::vector<glm::dvec4> walls_;
-    // For each slice: the number of walls, and the three components of SliceFog::size.
+    // wallCounts_ has, for each slice, the number of SliceFog::walls, the half-spaces that bound the fog. sizes_ has
+    // three numbers for each slice: the components of SliceFog::size.
     std::vector<std::uint32_t> wallCounts_, sizes_;
     std::vector<glm::dvec3> mins_;
     std::vector<double> steps_;

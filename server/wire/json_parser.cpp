@@ -82,7 +82,8 @@ class JsonValueBuilder {
             refusal_ = "the message nests too deeply; at most " + std::to_string(maxDepth_) + " levels are allowed";
             return false;
         }
-        // The address of the new value stays valid: while one of its elements is open, an array does not grow.
+        // The address of the new value stays valid while the value is open: until it is closed, its parent gets no
+        // other element.
         json* placed = insertValue(std::move(empty));
         if (placed) open_.push_back(placed);
         return placed != nullptr;
@@ -105,8 +106,8 @@ class JsonValueBuilder {
 
 constexpr auto kNotFinite = std::to_array<std::string_view>({"NaN", "Infinity", "-Infinity"});
 
-// Returns the token at which the parser stopped, if it is NaN, ±Infinity or a number too large for a double. Otherwise
-// returns an empty string.
+// Returns the token at which the parser stopped, if it is NaN, Infinity, -Infinity or a number too large for a double.
+// Otherwise returns an empty string.
 std::string_view badNumberAt(std::string_view text, const JsonValueBuilder& builder) {
     if (builder.errorPosition() == 0 || builder.errorPosition() > text.size()) return {};
     if (builder.hasOverflow())
@@ -119,7 +120,7 @@ std::string_view badNumberAt(std::string_view text, const JsonValueBuilder& buil
     return {};
 }
 
-// Returns whether a word is NaN, ±Infinity or a number too large for a double.
+// Returns whether a word is NaN, Infinity, -Infinity or a number too large for a double.
 bool isBadNumber(std::string_view word) {
     if (std::ranges::find(kNotFinite, word) != kNotFinite.end()) return true;
     double value = 0;
@@ -146,8 +147,8 @@ std::size_t lengthOfWord(std::string_view text) {
     return static_cast<std::size_t>(std::ranges::find_if_not(text, inWord) - text.begin());
 }
 
-// Returns the text with null in place of NaN, ±Infinity and numbers too large for a double, outside of strings. Takes
-// linear time, because the text may come from an attacker.
+// Returns the text with null in place of NaN, Infinity, -Infinity and numbers too large for a double, except in
+// strings. Takes linear time, because the text may come from an attacker.
 std::string replaceNonFiniteByNull(std::string_view text) {
     std::string out;
     for (std::size_t i = 0; i < text.size();) {

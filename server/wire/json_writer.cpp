@@ -12,9 +12,11 @@ namespace oval4d::wire {
 
 namespace {
 
-constexpr std::size_t kMaxNumberLength = 32;  // the maximum length of a number in bytes
+// The number of bytes that value() reserves for one number. The longest number has fewer bytes.
+constexpr std::size_t kMaxNumberLength = 32;
 
-// Returns the number of bytes to reserve for an array of `numbers` coordinates or indices.
+// Returns the number of bytes to reserve for an array of `numbers` coordinates or indices, including brackets and
+// commas.
 std::size_t bytesToReserve(std::size_t numbers) { return (numbers + 2) * text::kBytesPerNumber; }
 
 // Writes numbers, each with a comma after it. Returns the end of the text.
@@ -26,7 +28,8 @@ char* putIntegers(char* at, std::span<const std::uint32_t> list) {
     return at;
 }
 
-// Writes the separator of two arrays, three bytes, and returns its end. Overwrites the byte after the separator.
+// Writes "],[", the separator of two arrays, and returns the end of these three bytes. Also overwrites the byte after
+// them.
 char* putArraySeparator(char* at) {
     std::memcpy(at, "],[", 4);
     return at + 3;

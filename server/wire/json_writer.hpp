@@ -25,7 +25,8 @@ class JsonWriter {
     void endObject() { closeContainer('}'); }
     void beginArray() { openBracket('['); }
     void endArray() { closeContainer(']'); }
-    /// Writes the name of a member, without escapes. Inline, because most names are known at compile time.
+    /// Writes the name of a member. The name must need no escapes. The function is inline, so that the compiler can
+    /// optimize it for names that are known at compile time.
     void key(std::string_view name) {
         buffer_.reserveMore(name.size() + 4);
         char* at = buffer_.at();
@@ -52,8 +53,8 @@ class JsonWriter {
     void null();
     /// Appends `text`, a value that is already encoded as JSON.
     void raw(std::string_view text);
-    /// Appends the members of `object` to the object that is being written. `object` is a complete object with at least
-    /// one member from another JsonWriter.
+    /// Appends the members of `object` to the object that is being written. `object` is a complete object from another
+    /// JsonWriter, and has at least one member.
     void appendMembersOf(std::string_view object) { raw(object.substr(1, object.size() - 2)); }
 
     // Functions that write arrays of numbers. Coordinates of vectors are rounded to single precision.
@@ -65,7 +66,7 @@ class JsonWriter {
     void triples(std::span<const IndexTriple> list);
     void numbers(std::span<const std::uint32_t> list);
     void floatsForPictures(std::span<const float> list);  ///< rounds the numbers to four decimals
-    void jaggedArray(JaggedArrayView view);               ///< writes each list as an array in an array
+    void jaggedArray(JaggedArrayView view);               ///< writes an array of arrays, one for each list
     /// Writes `pixels`, a table with this number of columns, as an array of rows. Each row is an array.
     void image(std::span<const std::uint8_t> pixels, std::size_t columns);
 

@@ -127,7 +127,8 @@ std::string pickMessage(const PictureAtPixel& at, const scene::Scene& scene, con
             w.member("level", std::uint64_t{at.level->level});
             w.member("cap", at.level->cap);
             slicing::FieldSample sample = *at.sample;
-            // On the surface, the function has exactly this value, apart from rounding errors.
+            // On the surface, the exact value of the function is the level. The sampled value differs from it by small
+            // errors.
             if (!at.level->cap) sample.value = scene.look.field.levels[at.level->level];
             writeSampleMembers(w, sample);
         }
@@ -195,7 +196,7 @@ std::string welcomeMessage(std::string_view session, std::string_view token, std
 
 std::string catalogueMessage(std::optional<double> id, std::span<const slicing::Object> loaded,
                              std::span<const std::string> data) {
-    // The elements of a field's domain, which is a 4-D box: vertices, edges, 2-faces and cells.
+    // The numbers of vertices, edges, 2-faces and cells of a field's domain, which is a 4-D box.
     constexpr ElementCounts kBox{16, 32, 24, 8};
     return makeMessage("catalogue", id, [&](JsonWriter& w) {
         w.key("polytopes");

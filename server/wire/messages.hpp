@@ -1,6 +1,7 @@
 #pragma once
-// Writes the messages from the server to clients as JSON text, except `slices` and `state`. `id` is the id of the
-// request that a message answers. `id` is absent if the message answers no request, or a request without an id.
+// Writes the messages from the server to clients as JSON text, except `slices` and `state`. In all functions, `id` is
+// the id of the request that the message answers. `id` is absent if the message answers no request, or a request
+// without an id.
 
 #include <cstdint>
 #include <optional>
@@ -35,8 +36,8 @@ struct PictureAtPixel {
 };
 
 /// Returns the `at` message, which describes what a picture shows at a pixel. `scene` is the picture of `object`.
-/// `source` is the object before it was transformed to the frame of reference (see session::State). A 2-face has the
-/// shape for which it is named only in `source`.
+/// `source` is the object before it was transformed to the frame of reference (see session::State). The name of a
+/// 2-face describes its shape in `source`, because the transformation may change the shape.
 std::string pickMessage(const PictureAtPixel& at, const scene::Scene& scene, const slicing::Object& object,
                         const slicing::Object& source, std::uint64_t revision, std::optional<double> id);
 
@@ -50,8 +51,9 @@ std::string criticalMessage(const slicing::CriticalSections& sections, double or
 
 /// Returns the `error` message for an error.
 std::string errorMessage(const Error& error, std::optional<double> id);
-/// Returns the `catalogue` message: a list of the polytopes of the catalogue, the example fields, the session's loaded
-/// objects `loaded`, and the arrays `data` (names) in the server's data folder.
+/// Returns the `catalogue` message: a list of the polytopes of the catalogue, the example fields, loaded objects and
+/// arrays. `loaded` has the objects loaded into the session, and `data` the names of the arrays in the server's data
+/// folder.
 std::string catalogueMessage(std::optional<double> id, std::span<const slicing::Object> loaded = {},
                              std::span<const std::string> data = {});
 /// Returns the `keymap` message, which contains the key table of protocol/keymap.json.

@@ -7,7 +7,8 @@ namespace oval4d::wire {
 
 namespace {
 
-constexpr std::size_t kContainerHead = 5;  // a format byte, and four bytes for the size
+// Bytes before the content of an object or an array: a format byte, and four bytes for the size.
+constexpr std::size_t kContainerHead = 5;
 
 // Returns the least k for which an unsigned integer with 2^k bytes can represent `number`.
 unsigned log2ByteWidth(std::uint64_t number) {

@@ -19,8 +19,8 @@ class MsgpackWriter final : public BinaryWriter {
   public:
     explicit MsgpackWriter(std::string& out) : out_(out), buffer_(out), open_(1) {}
 
-    // Objects (maps in MessagePack) and arrays begin with their sizes, which are known only at their ends. So each size
-    // is written as 32 bits, and filled in at the end.
+    // Objects (maps in MessagePack) and arrays begin with their sizes, which are known only at their ends. So 32 bits
+    // are reserved for each size, and filled in at the end.
     void beginObject() override { beginContainer('\xDF'); }
     void endObject() override { endContainer(2); }
     void beginArray() override { beginContainer('\xDD'); }
@@ -34,7 +34,7 @@ class MsgpackWriter final : public BinaryWriter {
     void value(bool flag) override;
     void value(std::string_view text) override;
     using BinaryWriter::value;
-    // Overloads that BinaryWriter also has, here without a virtual call for each number of an ordinary array.
+    // These overloads hide those of BinaryWriter, which make a virtual call for each number of an ordinary array.
     void value(std::uint32_t number) { value(std::uint64_t{number}); }
     void value(int number) { value(std::int64_t{number}); }
     void appendMembersOf(std::string_view object) override;
@@ -50,12 +50,13 @@ class MsgpackWriter final : public BinaryWriter {
     void beginContainer(char format);
     void endContainer(std::uint32_t itemsPerElement);
     void countItem() { ++open_.back().items; }
-    /// Writes a format byte, and then an integer of 2^k bytes.
+    /// Writes a format byte, and then an integer as 2^k bytes, the most significant byte first.
     void writeHead(unsigned format, unsigned k, std::uint64_t integer);
 
     std::string& out_;
     OutputBuffer buffer_;
-    // The first entry counts the message itself. The last entry is the innermost container.
+    // The containers that are being written, the innermost last. The first entry is not a container; it counts the
+    // message itself.
     std::vector<OpenContainer> open_;
 };
 

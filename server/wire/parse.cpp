@@ -103,7 +103,7 @@ void readValue(const json& value, std::optional<Value>& into) {
     readValue(value, into.emplace());
 }
 
-// Returns the body of a valid message. Members that the message lacks keep their defaults.
+// Returns the body of a valid message. Members of the body that the message lacks keep their defaults.
 template <typename T>
 T parseMembers(const json& message) {
     T body;
@@ -210,7 +210,7 @@ session::LoadObject parseMembers(const json& message) {
     if (message.contains("data") && message.contains("path"))
         throw InvalidRequest{"load: give either /data or /path, not both"};
     if (message.contains("data") && !message.contains("format")) throw InvalidRequest{"load: /format is missing"};
-    // parse() sets the member `data` later.
+    // parseBody() sets the member `data` later.
     session::LoadObject load{message.at("name"), {}, {}, message.value("continues", false)};
     for (const auto& [name, member] : session::kLoadTexts) {
         if (const auto text = message.find(name); text != message.end()) text->get_to(load.*member);
@@ -223,8 +223,8 @@ session::LoadObject parseMembers(const json& message) {
     return load;
 }
 
-/// Returns the numbers in `value`: a JSON array of numbers, or a text with expressions, separated by commas. Error
-/// messages call the value `where`.
+/// Returns the numbers in `value`: a JSON array of numbers, or a text with expressions, separated by commas. Throws
+/// InvalidRequest if an expression is wrong; the error message calls the value `where`.
 std::vector<double> parseNumberList(const json& value, const std::string& where) {
     if (value.is_array()) return value.get<std::vector<double>>();
     auto list = session::evaluateList(value.get_ref<const std::string&>());

@@ -26,7 +26,8 @@ struct BadRequest {
 };
 
 /// Parses one message with at most `maxDepth` levels of nesting, and validates it against its JSON schema. Errors:
-/// `bad_json`, `bad_message`, `unknown_type`, `out_of_range`.
+/// `bad_json` if the text is not JSON or exceeds a limit of parseJson(); `unknown_type` for an unknown type of message;
+/// `out_of_range` for a number outside its bounds; `bad_message` for all other faults.
 std::variant<Request, BadRequest> parseRequest(std::string_view text, int maxDepth = 32);
 
 /// The type and the id of a message, as far as they could be read.
@@ -38,7 +39,7 @@ struct RequestTypeAndId {
 RequestTypeAndId peekRequest(std::string_view beginning);
 
 /// Parses a `state` message, such as the one in the iTXt chunk of a picture's PNG file. Returns the command that
-/// restores the state. Errors: `bad_json`, `bad_message`, `out_of_range`.
+/// restores the state. Errors: `bad_json`, `bad_message` and `out_of_range`, as for parseRequest().
 Result<session::ChangeSettings> setCommandFromState(std::string_view text);
 
 /// Parses the `state` message in a file: a picture made by oval4d, or a JSON file with only this message. Returns the

@@ -41,7 +41,7 @@ struct Hello {
     StreamKind stream = StreamKind::none;
     Encoding encoding = Encoding::json;
     std::optional<scene::Viewport> viewport;  ///< the size of the pictures; if absent, the server chooses the size
-    /// The color scheme of pictures with scene::Background::automatic.
+    /// The color scheme of the pictures for this client, if their background is scene::Background::automatic.
     scene::ColorScheme scheme = scene::ColorScheme::dark;
     /// The secret token of the session to join. Present only if the address of the connection names a session.
     std::optional<std::string> token;
@@ -65,9 +65,10 @@ struct Get {
     static constexpr std::string_view kMessageType = "get";
     GetTarget what = GetTarget::state;
     std::optional<scene::Viewport>
-        /// For GetTarget::slices, frame and at: the size of the picture. If absent, the size that the connection has.
+        /// For GetTarget::slices, frame and at: the size of the picture. If absent, the size from the `hello` of the
+        /// connection.
         viewport;
-    /// For GetTarget::slices and frame: the background. If absent, the background that the session has.
+    /// For GetTarget::slices and frame: the background. If absent, the background of the session.
     std::optional<scene::Background> background;
     /// For GetTarget::slices and frame: the element to highlight. The inner optional is empty for no highlight. The
     /// outer optional is empty for the element that the session highlights.
@@ -98,17 +99,17 @@ struct Measured {
     glm::dvec4 center{0};
     /// For a cell: its type, as an index into ObjectInfo::cellTypes.
     std::optional<std::uint64_t> kind = {};
-    std::optional<std::string> unit = {};  ///< unit of the length, the area or the volume; absent if unknown
+    std::optional<std::string> unit = {};  ///< the unit of `length`, `area` or `volume`; absent if unknown
     std::optional<std::string> name = {};  ///< for a 2-face: the name of its polygon
-    /// `highlight` is what shows the element in pictures. `range` is the least and the greatest w of the element's
-    /// vertices, in the coordinates of the shown object. `highlight` and `range` are present only if the request asks
-    /// for them.
+    /// `highlight` is the vertices and edges that show the element in pictures. `range` is the least and the greatest w
+    /// of the element's vertices, in the coordinates of the shown object. `highlight` and `range` are present only if
+    /// the request asks for them.
     std::optional<slicing::PartsShowingElement> highlight = {};
     std::optional<glm::dvec2> range = {};
 };
 BOOST_DESCRIBE_STRUCT(Measured, (), (revision, length, area, volume, center, kind, unit, name, highlight, range))
 
-/// The report that the client has shown the picture of this revision of the state.
+/// A report that the client has shown the picture of the state with this revision.
 struct PictureShown {
     static constexpr std::string_view kMessageType = "shown";
     std::uint64_t revision = 0;
@@ -126,7 +127,7 @@ struct Pong {
     std::uint64_t workers = 0;  ///< the number of threads that compute slices and draw pictures
     std::uint64_t waiting = 0;  ///< the number of jobs, mostly pictures, that wait for such a thread
     double busy = 0;            ///< the total running time of all finished jobs, in seconds
-    double time = 0;            ///< the time of a monotonic clock, in seconds
+    double time = 0;            ///< the time at which the answer was made, on a monotonic clock in seconds
 };
 BOOST_DESCRIBE_STRUCT(Pong, (), (workers, waiting, busy, time))
 

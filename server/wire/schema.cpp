@@ -134,8 +134,8 @@ const valijson::ValidationResults::Error* mostSpecificError(const valijson::Vali
 }
 
 // Returns the end of an error message after "must be": the title of the schema, such as "a finite number of radians".
-// For a schema without a title, returns "a number from 0.25 to 4" or "an integer from 1 to 9" if the schema has both
-// bounds, and otherwise "different".
+// For a schema without a title but with both bounds, returns a text such as "a number from 0.25 to 4" or "an integer
+// from 1 to 9". For other schemas, returns "different".
 std::string expectedValueText(const json& schema) {
     if (schema.contains("title") || !schema.contains("minimum") || !schema.contains("maximum"))
         return schema.value("title", "different");
@@ -144,7 +144,8 @@ std::string expectedValueText(const json& schema) {
            text::roundedDecimal(schema.at("maximum").get<double>());
 }
 
-// Returns the description of a missing or unknown member of an object; an empty string if there is no such member.
+// Returns the description of one fault: a missing required member of an object, or an unknown member. Returns an empty
+// string if there is no such fault.
 std::string describeMembersFault(const json& schema, const json& value, const std::string& path) {
     if (!value.is_object() || !schema.contains("properties")) return {};
     const json& properties = schema.at("properties");

@@ -19,8 +19,8 @@ std::span<const T> subspanOf(const std::vector<T>& all, std::uint32_t begin, std
     return std::span<const T>(all).subspan(begin, end - begin);
 }
 
-// The sources of the elements of one slice or several. The source of an element is the index of the element of the
-// object from which it was cut (see SliceSet).
+// The sources of the vertices, edges and faces of one slice or several. A source is a number that tells from which
+// element of the object the vertex, edge or face was cut (see SliceSet).
 struct ElementSourceNumbers {
     IndexSpan vertices, edges, faces;
 };
@@ -44,7 +44,8 @@ void writeElementSources(W& w, const ElementSourceNumbers& of) {
     w.endObject();
 }
 
-// Writes the cells that determine the colors of faces. Writes nothing if these cells are the sources of the faces.
+// Writes, for each face of slices or parts `from` … `to` − 1, the cell that determines its color. Writes nothing if
+// each face is cut from this cell.
 template <typename W>
 void writeColorCells(W& w, const SliceSet& slices, const std::vector<std::uint32_t>& faceCells, std::size_t from,
                      std::size_t to) {
@@ -97,8 +98,8 @@ struct FilledFaceTriangles {
     std::vector<std::uint32_t> colorCells, visibilities;
 };
 
-// Adds the triangles of the visible faces of one slice or part. `colorCells` contains, for each face, the cell that
-// determines its color.
+// Adds to `fill` the triangles of the faces of one slice or part, except hidden faces. `slice` is the index of the
+// slice or part. `colorCells` contains, for each face, the cell that determines its color.
 void addFill(const slicing::FilledFaces& from, const std::vector<std::uint32_t>& colorCells,
              const slicing::VisibilityBySource& visibilities, std::size_t slice, FilledFaceTriangles& fill) {
     const std::size_t begin = fill.points.size();

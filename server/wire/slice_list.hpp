@@ -38,8 +38,8 @@ class SliceListWriter {
         });
         writeAllSlices(w, placements, scene);
     }
-    /// Writes the projection of the whole object: each ProjectionPartLook with its vertices, edges and faces. In binary
-    /// encodings, each property is an array with the values of all parts.
+    /// Writes the parts of the projection of the whole object: for each part, its ProjectionPartLook, vertices, edges
+    /// and faces. In binary encodings, each property is an array with the values of all parts.
     void writeProjection(JsonWriter& w, const scene::Scene& scene);
     void writeProjection(BinaryWriter& w, const scene::Scene& scene);
 
@@ -48,10 +48,12 @@ class SliceListWriter {
     // Writes all slices as one object. `placements` is the encoded object from writePlacements(), whose members become
     // members of this object.
     void writeAllSlices(BinaryWriter& w, std::string_view placements, const scene::Scene& scene);
-    // Writes the elements of all slices, or of all parts of a projection.
+    // Writes the elements of all slices, or of all parts of a projection. `faceCells` has, for each face, the cell that
+    // determines its color.
     void writeElements(BinaryWriter& w, const slicing::SliceSet& slices, const std::vector<std::uint32_t>& faceCells,
                        const slicing::VisibilityBySource& visibilities);
-    // Writes the triangles of the faces of all slices, or of all parts of a projection.
+    // Writes the triangles of the faces of all slices, or of all parts of a projection. `colorCells` has, for each
+    // face, the cell that determines its color.
     void writeFills(BinaryWriter& w, const slicing::FilledFaces& faces, const std::vector<std::uint32_t>& colorCells,
                     const slicing::VisibilityBySource& visibilities);
     // Writes the lengths of consecutive ranges as an array called `name`. `begin` contains the start of each range, and

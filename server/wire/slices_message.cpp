@@ -31,7 +31,7 @@ void writePairs(W& w, std::string_view name, const Pairs& list) {
     w.endArray();
 }
 
-// Writes a member that is an ordinary array of numbers. Binary encodings do not use a typed array here, either.
+// Writes a member that is an array of numbers. In all encodings, it is an ordinary array, not a typed array.
 template <typename W, typename Numbers = std::initializer_list<double>>
 void writeNumbers(W& w, std::string_view name, const Numbers& list) {
     w.key(name);

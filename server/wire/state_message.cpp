@@ -101,8 +101,8 @@ void writeBox(JsonWriter& w, std::string_view name, const fields::Box& box) {
     w.endArray();
 }
 
-// Writes the member `region` if the field is a part of an array in the data folder, and the member `resolution` if it
-// is a level of a multiscale image.
+// Writes the member `region` if the field is a part of an array in the data folder. Writes the member `resolution` if
+// the field is a level of a multiscale image.
 void writePart(JsonWriter& w, const fields::Field& field) {
     if (!field.source) return;
     if (field.source->region) writeBox(w, "region", *field.source->region);
@@ -116,7 +116,8 @@ void writePart(JsonWriter& w, const fields::Field& field) {
     w.endObject();
 }
 
-// Writes the member `values`: the second function of a field, if it has one, and the color scale of its values.
+// Writes the member `values`: the field's second function, if it has one, and the color scale of the coloring values.
+// These are the values of the second function or, without one, of the field.
 void writeValues(JsonWriter& w, const fields::Field& field, scene::ColorScheme scheme) {
     constexpr int kColors = 9;
     const scene::ValueColorScale scale = scene::valueScaleFor(field.coloringRange->typicalRange(), scheme);

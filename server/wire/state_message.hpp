@@ -13,12 +13,13 @@
 namespace oval4d::wire {
 
 /// Returns the `state` message of a state. `section` contains the names of the section in the focus slice, and
-/// `quality` is the quality of the next picture. `viewer` is the color scheme that the viewer prefers. With
-/// scene::Background::automatic, it determines the colors of cell types and of values in the message. The PNG files of
-/// pictures contain the same text.
+/// `quality` is the quality of the next picture. `viewer` is the color scheme that the viewer prefers. If the
+/// background is scene::Background::automatic, this scheme determines the colors of cell types and of values in the
+/// message. The PNG files of pictures contain the same text.
 ///
-/// The message contains the serial number of State::source (the object in its own coordinates), because the frame of
-/// reference is one of the settings in the message.
+/// The message contains the serial number of State::source, the object in its own coordinates, and not that of
+/// State::object. The difference between both objects is the frame of reference, which is one of the settings in the
+/// message.
 std::string stateMessage(const session::State& state, const slicing::SectionNamePair& section, std::uint64_t revision,
                          std::optional<double> id = {}, slicing::Quality quality = slicing::Quality::full,
                          scene::ColorScheme viewer = scene::ColorScheme::dark);

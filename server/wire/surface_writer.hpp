@@ -49,7 +49,8 @@ class SurfaceWriter {
 
     std::vector<glm::vec3> points_, normals_;
     std::vector<IndexTriple> triangles_;
-    // level_ and cap_ have one number for each triangle; colors_ and capColors_ have one number for each point.
+    // level_ and cap_ have one number for each triangle. cap_ is 1 for triangles of caps, the flat parts that close a
+    // body at the boundary of the field's box; otherwise 0. colors_ and capColors_ have one number for each point.
     std::vector<std::uint32_t> level_, cap_, colors_, capColors_;
     // One number for each slice.
     std::vector<std::uint32_t> pointCounts_, triangleCounts_;

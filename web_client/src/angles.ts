@@ -16,14 +16,15 @@ export function editableAngle(radians: number): string {
     for (let n = 1; n <= kMaxDenominator; ++n) {
         const k = (radians * n) / Math.PI;
         if (Math.abs(k - Math.round(k)) > kTolerance) continue;
-        return `${formatDecimal(Math.round(k), 0)}*pi/${n}`.replace(/^(\u2212?)1\*/, "$1"); // pi/7, not 1*pi/7
+        // Gives pi/7 instead of 1*pi/7.
+        return `${formatDecimal(Math.round(k), 0)}*pi/${n}`.replace(/^(\u2212?)1\*/, "$1");
     }
     return `${formatDecimal(degrees, 10)}°`;
 }
 
 /**
- * Converts an angle such as "10", "10°", "10 deg", "pi/8" or "0.2 rad" to an expression of the command line. Throws an
- * Error if the text is blank.
+ * Converts an angle such as "10", "10°", "10 deg", "pi/8" or "0.2 rad" to an expression for the command line: "10"
+ * becomes "deg(10)". Throws an Error if the text is blank.
  */
 export function angleExpression(text: string): string {
     const typed = withoutBlanksAroundOperators(text).toLowerCase();
@@ -45,7 +46,7 @@ export function withoutBlanksAroundOperators(text: string): string {
 
 /**
  * Replaces "º" and "˚", which look like the degree sign, by the degree sign "°". Keyboards of Spain and Portugal type
- * "º". The server's command line also accepts both.
+ * "º". The server's command line also accepts "º" and "˚".
  */
 function withDegreeSigns(text: string): string {
     return text.replace(/[º˚]/g, "°");

@@ -104,8 +104,9 @@ export class App {
         },
         onFrame: (png) => this.stage.showFrame(png).catch((error: Error) => this.notice.show(error.message)),
         onError: (error) => this.notice.show(error.message),
-        // If the size of the page's picture is not allowed, the page says hello with the default size. The server's
-        // answer `welcome` states the limits on sizes; the page then says hello again, with a size within these limits.
+        // If the server refuses `hello` because of the size of the picture, the client sends `hello` with the default
+        // size. The server's answer `welcome` states the limits on sizes. The page then sends `hello` again, with a
+        // size within these limits.
         onRefused: ({ code }) => (code === "out_of_range" ? "default" : undefined),
         onLost: (reason) => this.session.sessionLost(reason, this.state),
     });
@@ -280,7 +281,8 @@ export class App {
         byId("share-button").addEventListener("click", () => void this.sharing.copySessionLink());
         byId("help-button").addEventListener("click", () => this.help.open());
         byId("help-tour").addEventListener("click", () => this.startTour());
-        // Keys act on the drawing while the tour explains them, but the space bar presses the tour's buttons.
+        // Keys pressed in the tour's panel act on the drawing, so that the user can try them. Only the space bar
+        // presses the tour's buttons.
         byId("tour").addEventListener("keydown", (event) => event.key !== " " && this.keyboard.keydown(event));
         this.listenForToolsButton();
         document.addEventListener("visibilitychange", () => this.updateStreamAndConnection());
@@ -303,7 +305,7 @@ export class App {
         this.tour.start();
     }
 
-    /** Handles a new connection. The new server may be a different one, with a different key table. */
+    /** Handles a new connection. The server may be another one than before, with another key table. */
     private async connectionOpened(): Promise<void> {
         this.keyRepeatLimiter.prepareForNewConnection();
         this.latency.prepareForNewConnection();
@@ -348,15 +350,15 @@ export class App {
     }
 
     /**
-     * Requests the stream for the current mode, or no stream while the page is hidden. If the page is visible, also
-     * tests the connection or, if there is none, connects without further delay.
+     * Requests the stream of pictures for the current rendering mode, or no stream while the page is hidden. If the
+     * page is visible, also tests the connection or, if there is none, connects without further delay.
      */
     private updateStreamAndConnection(): void {
         const stream = document.hidden ? "none" : this.stage.mode;
         this.helloShowingRefusal({ stream, viewport: this.stage.size });
         if (document.hidden) return;
         if (this.client.status.kind === "waiting") this.client.connect();
-        else this.client.test(); // because no event reports a broken network
+        else this.client.test(); // the connection may have broken without an event
     }
 
     /**
@@ -425,7 +427,7 @@ export class App {
         showSchemePressed(choice);
     }
 
-    /** Asks the server for pictures in the new color scheme of the page. */
+    /** Shows the state in the new color scheme of the page, and asks the server for pictures in this scheme. */
     private schemeChanged(): void {
         if (this.state) this.update(this.state);
         this.helloShowingRefusal({ scheme: this.colorScheme.current });
@@ -438,7 +440,8 @@ export class App {
     private fullScreenChanged(isOn: boolean): void {
         if (isOn) this.hadTools = !document.body.hasAttribute("data-tools-hidden");
         this.setToolsOpen(!isOn && this.hadTools);
-        if (document.activeElement === document.body) this.drawing.focus(); // the button with the focus may be hidden
+        // The button that had the focus may now be hidden.
+        if (document.activeElement === document.body) this.drawing.focus();
         showFullScreenPressed(isOn);
         this.stage.scheduleRedraw();
     }
@@ -507,7 +510,7 @@ export class App {
         return (changed?.status === "fulfilled" ? changed : loaded!).value.revision;
     }
 
-    /** Loads a field of the server's data folder. */
+    /** Loads the array at `path` in the server's data folder. Rejects if the server refuses it. */
     private async loadFromDataFolder(path: string): Promise<void> {
         const data = { name: nameOf({ name: path }), path };
         const { warnings = [] } = await this.request({ type: "load", ...data });
@@ -523,7 +526,7 @@ export class App {
 
     /**
      * Lists the catalogue in the picker. Requests the catalogue at each call, because polytopes may have been loaded
-     * since the last one.
+     * since the last call.
      */
     private async refreshPickerEntries(): Promise<void> {
         try {
@@ -541,7 +544,7 @@ export class App {
         this.tour.stop();
     }
 
-    /** Opens the export dialog. If an element is given, only this element is exported. */
+    /** Opens the export dialog. If an element is given, the dialog chooses this element as the content of the file. */
     private openExport(highlight?: PolytopeElement): void {
         this.notice.hide();
         this.slider.stop(); // so that the file contains the slice that the dialog names
@@ -555,7 +558,7 @@ export class App {
         this.phoneLinkDialog.open();
     }
 
-    /** Saves the file that a text such as "stl fit=5" describes: a format and options. */
+    /** Saves the file that `description` describes: a format and options, as in "stl fit=5". */
     private async exportAndSaveFile(description: string): Promise<void> {
         this.slider.stop();
         // A move of the focus may be on its way to the server. The file will show the slice after this move, so the

@@ -6,7 +6,8 @@ import { FileError, sizeText, detectUtf16 } from "./files";
 
 const kTooLarge = 413; // the HTTP status if a proxy or the server refuses a file because of its size
 const kMaxReason = 200; // the most characters of a proxy's answer that the page shows as the reason
-const kHeader = 512; // isBinaryFile() reads this many bytes; in an array, they include a control character
+// Bytes at the start of a file that isBinaryFile() reads; in a file with an array, they include a control character.
+const kHeader = 512;
 
 /** Whether a file is binary, not a text. Only the server finds out whether it is an array, and in which format. */
 export async function isBinaryFile(file: File): Promise<boolean> {
@@ -27,7 +28,7 @@ export function uploadArray(
     limit: number,
     sent: (part: number) => void,
 ): Promise<Done> {
-    // XMLHttpRequest is used because fetch() does not report progress.
+    // XMLHttpRequest is used because fetch() does not report the progress of an upload.
     const request = new XMLHttpRequest();
     const path = `api/v1/sessions/${encodeURIComponent(session)}/fields/${encodeURIComponent(name)}`;
     request.open("PUT", new URL(path, new URL(".", location.href)));

@@ -39,7 +39,10 @@ export class Catalogue {
         this.families = [...new Set(this.indexed.map(({ family }) => family))];
     }
 
-    /** The entries that contain every word of `query`, grouped by family; the best matches come first. */
+    /**
+     * The entries whose names, symbols and family together contain every word of `query`, grouped by family. The best
+     * matches come first.
+     */
     find(query: string): PolytopeFamily[] {
         const words = query.split(/\s+/).map(normalizeForSearch);
         const found = this.indexed.filter(({ searchText }) => words.every((word) => hasSearchWord(searchText, word)));

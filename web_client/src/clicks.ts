@@ -9,20 +9,21 @@ import type { HitTester } from "./picture/hit_tester";
 import type { Stage } from "./picture/stage";
 import { isElement, type PointerHighlighter } from "./pointing";
 
-const kLeastDisc = 12; // pixels: a click this near to the center of a slice hits the slice, however small the slice is
+// CSS pixels: a click this near to the center of a slice hits the slice, however small the slice is.
+const kLeastDisc = 12;
 
 interface ClickActions {
     state: () => State | undefined;
     /**
      * Resolves to the hit tester of the shown picture, which finds the element at a pixel. If the server does not send
-     * it, tells the user why, and resolves to undefined.
+     * the hit tester, tells the user why, and resolves to undefined.
      */
     hitTester: () => Promise<HitTester | undefined>;
     /** Called at each click, before its effect. */
     began: () => void;
     /**
-     * Moves the focus point to the point of 4-D space that a matrix panel shows at the point `at` of the drawing.
-     * Returns false if no panel is at this point.
+     * Moves the focus point to the 4-D point that a matrix panel shows at the place `at` of the drawing. Returns false
+     * if no panel is at this place.
      */
     moveFocusPoint: (at: AreaPoint) => boolean;
     send: (command: Command) => void;

@@ -64,8 +64,9 @@ const kBackgrounds: Record<Background, { label: string; title: string }> = {
 const kVisibilities = ["shown", "faded", "hidden"] as const;
 type CellKindVisibility = (typeof kVisibilities)[number];
 
-const kScaleDigits = 3; // the ends of a scale of values are rounded to this many significant digits of their difference
-const kMaxListedKinds = 24; // the list is limited: an imported polytope may have as many kinds of cells as cells
+// The ends of a color scale are rounded to the decimal place at which their difference has this significant digit.
+const kScaleDigits = 3;
+const kMaxListedKinds = 24; // the most kinds of cells in the list; an imported polytope may have as many kinds as cells
 
 export class ColorControls {
     private readonly colorings = element("div", { class: "segments", role: "group", "aria-label": "Color by" });
@@ -123,8 +124,8 @@ export class ColorControls {
     }
 
     /**
-     * Offers the colorings that have an effect on the object, checks the one that the picture shows, and shows the
-     * color scale of this coloring.
+     * Offers the colorings that have an effect on the object. Selects the coloring that the picture shows, and shows
+     * its color scale.
      */
     private showColoring(state: State): void {
         const object = isField(state) ? "field" : "polytope";
@@ -143,7 +144,8 @@ export class ColorControls {
         this.scale.dataset["of"] = shown;
         const bar = element("span", { role: "img", "aria-label": scale.text });
         if (scale.colors) bar.style.background = `linear-gradient(90deg, ${scale.colors.join(", ")})`;
-        const label = scale.label ? [element("small", { "aria-hidden": "true" }, scale.label)] : []; // also in the text
+        // Screen readers read `scale.text`, which contains the label.
+        const label = scale.label ? [element("small", { "aria-hidden": "true" }, scale.label)] : [];
         this.scale.replaceChildren(scale.least, bar, scale.most, ...label);
     }
 
@@ -178,8 +180,9 @@ function coloringSeen(state: State): Coloring {
 }
 
 /**
- * The legend of the picture's color scale; undefined if the picture has no color scale. It belongs to `seen`, the
- * coloring of the picture. If `seen` has no scale but the caps of a field are colored by value, it belongs to the caps.
+ * The legend of the picture's color scale; undefined if the picture has no color scale. The legend belongs to `seen`,
+ * the coloring of the picture. If `seen` has no scale but the caps of a field are colored by value, the legend belongs
+ * to the caps: the flat parts that close a body at the boundary of the field's box.
  */
 function colorScaleLegend(state: State, seen: Coloring): ColorScaleLegend | undefined {
     const { caps, field } = state;

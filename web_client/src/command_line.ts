@@ -7,7 +7,7 @@ import { loadFromStorage, saveToStorage } from "./storage";
 
 const kHistoryKey = "oval4d.commands";
 const kMaxHistory = 100; // the most lines that the history keeps
-const kPage = 0.8; // the fraction of the panel's height by which Page Down scrolls
+const kPage = 0.8; // the fraction of the panel's height by which Page Up and Page Down scroll
 
 export interface CommandLineEvents {
     /** Executes a line; rejects with an Error whose message is shown to the user. */
@@ -34,7 +34,8 @@ export class CommandLine {
     private readonly list = byId("command-options");
     private readonly announcer = byId("spoken");
     private history = loadFromStorage<string[]>(kHistoryKey) ?? [];
-    private historyPosition = 0; // counted from the end of the history; 0 is the line being typed
+    // The place of the shown line, counted from the end of the history; 0 is the line being typed.
+    private historyPosition = 0;
     private draft = ""; // what the user has typed, while the input shows an earlier line
     private cycle: CompletionCycle | undefined;
     private openings = 0; // how often the command line has been opened
@@ -106,7 +107,10 @@ export class CommandLine {
         this.form.scrollIntoView({ block: "nearest" }); // the window may have to scroll, too
     }
 
-    /** Completes the line. Returns false if there is nothing to complete; Tab then moves the focus. */
+    /**
+     * Handles Tab, or Shift-Tab if `backwards` is true: completes the line. Returns false if there is nothing to
+     * complete; the key then moves the focus.
+     */
     private tab(backwards: boolean): boolean {
         if (backwards && this.list.hidden) return false;
         const step = backwards ? -1 : 1;
@@ -129,8 +133,8 @@ export class CommandLine {
 
     /**
      * If there is only one completion, inserts it. If there are several, the first call inserts the beginning that they
-     * share, and lists them. Each further call replaces what the last call inserted by the next option of the list, or
-     * by the previous option if `step` is -1. Returns false if there is no completion.
+     * share, and lists them. Each further call inserts the next option of the list, or the previous one if `step` is
+     * -1, in place of what the last call inserted. Returns false if there is no completion.
      */
     private complete(step: number): boolean {
         const { cycle } = this;
@@ -219,7 +223,7 @@ export class CommandLine {
         this.historyPosition = 0;
         saveToStorage(kHistoryKey, this.history);
         const { openings } = this;
-        // Returns false if the command line has been opened again since the line was submitted.
+        // Returns true unless the command line has been opened again since the line was submitted.
         const isSame = (): boolean => openings === this.openings;
         try {
             await this.events.runLine(line);

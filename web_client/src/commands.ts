@@ -28,7 +28,10 @@ interface SettingSchema {
 // The settings that messages can change, but the command line cannot.
 const kNotOnTheLine = ["orientation", "field", "last"];
 
-/** The settings of the command `set`, each with a list of its values; empty for a setting that is a number or name. */
+/**
+ * The settings of the command `set`, each with a list of its values. The list is empty for a setting whose value is a
+ * number or a name.
+ */
 export const kSettings = new Map<string, string[]>(settingsInSchema(settings.properties as Record<string, SettingSchema>));
 
 /**
@@ -43,8 +46,8 @@ export const kElementKinds = settings.properties.highlight.properties.element.en
 
 /**
  * The settings in the schema `properties`, each with a list of its values. `properties` belongs to the message `set`
- * or, if `parent` is given, to its member object `parent`. On the command line, `slices.count` is called `slices`.
- * Every other nested setting has its own name: `slices.spacing` is called `spacing`.
+ * or, if `parent` is given, to the object `parent` in this message. On the command line, `slices.count` is called
+ * `slices`. Every other nested setting has its own name: `slices.spacing` is called `spacing`.
  */
 function settingsInSchema(properties: Record<string, SettingSchema>, parent = ""): [string, string[]][] {
     return Object.entries(properties).flatMap(([name, schema]): [string, string[]][] => {

@@ -18,11 +18,11 @@ export interface Completions {
     /** The index in the line where the completed text begins. An option replaces the text from there to the caret. */
     start: number;
     options: string[];
-    /** The text to insert after an option if it is the only one: a blank, or "". */
+    /** The text to insert after an option if it is the only one: a blank, ":" or "". */
     suffix: string;
 }
 
-const kPageSettings = new Map([["latency", ["on", "off"]]]); // settings that only the page knows, with values
+const kPageSettings = new Map([["latency", ["on", "off"]]]); // settings that only the page knows, each with its values
 // The kinds of names that may contain blanks. Such a name extends to the end of the line.
 const kOfRestOfLine = ["polytope", "kind"];
 
@@ -40,7 +40,8 @@ export function completionsOf(line: string, names: CompletableNames): Completion
     const start = line.length - word.length;
     if (completes === "setting") return settingCompletions(line, start, rest, names);
     if (completes === "format" && word !== rest) return fileOptionCompletions(line, rest, word);
-    if (word !== rest) return { start, options: [], suffix: "" }; // of other commands, only the first argument
+    // Only the first argument of other commands is completed.
+    if (word !== rest) return { start, options: [], suffix: "" };
     const options = completionsOfKind(completes, word, names);
     return completionsUnlessComplete(line, start, options, completes === "highlight" ? beforeNumber(options, " ") : "");
 }
@@ -79,7 +80,7 @@ function completionsOfKind(kind: string, typed: string, { polytopes, kinds, keys
         planes: kPlanes,
         element: kElementKinds,
         highlight: [...kElementKinds, "none"],
-        view: [...(kSettings.get("view") ?? []), "row"], // another name of "strip"
+        view: [...(kSettings.get("view") ?? []), "row"], // the view "strip" is also called "row"
         kind: [...new Set(kinds)],
         key: keys,
         format: [...kFormats.flatMap(({ formats }) => formats.map(({ name }) => name)), "latency"],
@@ -100,7 +101,9 @@ function filterByPrefix(list: string[], prefix: string): string[] {
     return list.filter((one) => one.toLowerCase().startsWith(wanted));
 }
 
-/** `separator`, which separates a kind of elements from its number, or "" if no number follows the first option. */
+/**
+ * Returns `separator`, the text between a kind of elements and a number, if the first option is such a kind; else "".
+ */
 function beforeNumber(options: string[], separator: string): string {
     return kElementKinds.includes(options[0] ?? "") ? separator : "";
 }

@@ -9,7 +9,8 @@ const kMaxWait = 1000; // milliseconds without an answer after which the page sa
 const kBlocked =
     "The server answers, but no WebSocket opens. A proxy must pass on the headers Host, Upgrade and Connection.";
 
-const kKeptSession = new Set(["later_version", "internal"]); // after these refusals, the session still exists
+// If the server refuses a session for one of these reasons, the session still exists.
+const kKeptSession = new Set(["later_version", "internal"]);
 
 export class ConnectionStatus {
     private readonly root = byId("connection");
@@ -19,7 +20,7 @@ export class ConnectionStatus {
     private readonly drawing = byId("drawing");
     private readonly announcer = byId("connection-spoken");
     private status: Status = { kind: "connecting" };
-    private refused = ""; // why the server could not open a session that exists; "" if this is not the case
+    private refused = ""; // why the server could not open the page's session, although the session exists; otherwise ""
     private presentedAt: Date | undefined;
     private retryAt = 0; // when the next attempt to connect begins, in milliseconds as in Date.now()
     private unanswered = 0; // number of requests without an answer

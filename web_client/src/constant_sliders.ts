@@ -13,8 +13,10 @@ interface ConstantSliderRow {
 }
 
 export class ConstantSliders {
-    private readonly rows = new Map<string, ConstantSliderRow>(); // by the constant's name
-    private readonly values = new Map<string, number>(); // by texts such as "pi/2": the computed numbers
+    private readonly rows = new Map<string, ConstantSliderRow>(); // the sliders, by the names of their constants
+    // The number that each text stands for. The keys are texts that users have typed as values of constants, such as
+    // "pi/2".
+    private readonly values = new Map<string, number>();
     private formula = "";
 
     /** `changed` is called with the new text of the formula. */

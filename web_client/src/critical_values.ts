@@ -1,7 +1,7 @@
 // The critical values of w, at which the section w = const changes its type. For a polytope, they are the values of w
 // at which vertices lie (Coxeter, Regular Polytopes, §13.1); for a field, those at which the body changes its topology.
-// The parallel coordinates of a picture contain the values of a polytope, but rounded: the page uses them at once, and
-// requests the exact values when the object has come to rest.
+// The parallel coordinates of a picture contain the w of a polytope's vertices, but rounded. The page uses these values
+// at once, and requests the exact values when the object has come to rest.
 
 import type { Client, Slices, State } from "@oval4d/protocol";
 
@@ -13,10 +13,11 @@ export interface CriticalValue {
     vertices?: number;
 }
 
-// The exact values are requested after this many milliseconds without a change. For a field, the search takes seconds.
+// The exact values are requested after this many milliseconds without a change. The time is longer for a field, because
+// the server's search then takes seconds.
 const kRestTime = 200;
 const kFieldRestTime = 1500;
-const kRounding = 1e-6; // circumradii: rounded values of w that differ by less than this count as equal
+const kRounding = 1e-6; // in circumradii of the object: rounded values of w that differ by at most this count as equal
 
 export class CriticalValues {
     /** The critical values from the lowest w to the highest; empty before the first are known. */
@@ -25,7 +26,10 @@ export class CriticalValues {
     isCurrent = false;
     /** Whether `all` and `range` are exact and belong to the newest state. */
     isExact = false;
-    /** The lowest and the highest w of the object. For a field, those of its slices until the server has answered. */
+    /**
+     * The lowest and the highest w of the object. For a field, the lowest and the highest w of its slices, until the
+     * server has answered.
+     */
     range: [number, number] = [0, 0];
     // The w of the object's center in the coordinates of its file; in pictures, the center has w = 0.
     private originW = 0;

@@ -1,5 +1,5 @@
 // A modal dialog. Escape, the Close button or a click outside closes the dialog. The browser then returns the focus to
-// the element that had it before. After opening with the mouse, this element is the drawing.
+// the element that had it before. If the dialog was opened with the mouse, this element is the drawing.
 
 import { byId } from "./element";
 

@@ -10,11 +10,12 @@ export function download(bytes: Uint8Array, name: string, type: string): void {
     setTimeout(() => URL.revokeObjectURL(url), kRevokeDelay);
 }
 
-/** Joins the parts to a file name that is valid on every file system. */
+/** Joins the texts in `parts` to a file name that is valid on every file system. */
 export function fileName(parts: string[], extension: string): string {
     const name = parts
         .join(" ")
-        .replace(/\.(4?off|txt|csv|xyz)\b/gi, "") // a polytope from a file is named after the file
+        // Removes the extension, because a polytope from a file is named after the file.
+        .replace(/\.(4?off|txt|csv|xyz)\b/gi, "")
         .replace(/[^\p{L}\p{N}.,+-]+/gu, "-")
         .replace(/^[-.]+|[-.]+$/g, "");
     return `${name === "" ? "oval4d" : name}.${extension}`;

@@ -27,7 +27,7 @@ export class ElementMeasurements {
     /**
      * Asks the server about this element, if the answer may have changed since the last question. The server is asked
      * one question at a time. If another element is wanted before a question is sent, only the newer one is asked
-     * about.
+     * about. If `element` is undefined, no further question is sent.
      */
     askAbout(element: PolytopeElement | undefined): void {
         this.wanted = element;
@@ -54,7 +54,8 @@ export class ElementMeasurements {
     }
 
     /**
-     * A text that identifies a question. It changes with each new state, because the element's range of w may change.
+     * A text that identifies a question. The text changes with each new state, because the element's range of w may
+     * change.
      */
     private questionAbout(element: PolytopeElement): string {
         return `${this.identityOf(element)} ${this.state()?.revision}`;

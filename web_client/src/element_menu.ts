@@ -9,7 +9,7 @@ export interface ElementMenuItem {
     act(): void;
 }
 
-const kMargin = 4; // pixels between the menu and the edges of the drawing
+const kMargin = 4; // the least distance, in pixels, of the menu from the edges of the drawing
 const kSteps: Record<string, number> = { ArrowDown: 1, ArrowUp: -1 };
 
 export class ElementMenu {
@@ -60,7 +60,10 @@ export class ElementMenu {
         this.drawing.focus({ preventScroll: true });
     }
 
-    /** The arrow keys, Home and End move the focus; Escape and Tab close the menu. Other keys do nothing. */
+    /**
+     * Handles keys: Up, Down, Home and End move the focus; Escape and Tab close the menu. Other keys keep their
+     * usual effects.
+     */
     private keydown(event: KeyboardEvent): void {
         event.stopPropagation();
         const buttons = [...this.menu.querySelectorAll("button")];

@@ -38,7 +38,8 @@ export class ExportDialog {
     // The body that the user chose, "solid" or "skeleton", kept while the dialog forces "skeleton" for an element
     // without volume.
     private bodyToRestore: string | undefined;
-    private isForElement = false; // whether the dialog was opened to export an element, for which it has set choices
+    // Whether open() has set choices in order to export an element. These choices end when the dialog closes.
+    private isForElement = false;
     private requestNumber = 0; // number of the current request; answers to earlier requests are ignored
 
     /** `size` returns the size of the picture on the page; `warn` shows the warnings about a saved file. */
@@ -254,8 +255,8 @@ export class ExportDialog {
     }
 
     /**
-     * Offers a choice of slices only if the whole oval is exported. Shows the text field, `fit` or `at`, that belongs
-     * to the choice.
+     * Offers a choice of slices only if the whole oval is exported. Shows the text field of the choice: `fit` for a
+     * number of slices, `at` for values of w.
      */
     private offerSliceChoices({ choices }: ExportFormat): void {
         const set = this.form.querySelector<HTMLFieldSetElement>("[data-choice=slices]")!;
@@ -283,7 +284,7 @@ export class ExportDialog {
         solid.disabled = solid.parentElement!.hidden = isFlat;
     }
 
-    /** Offers exact surfaces only for files with surfaces of a field. */
+    /** Offers the option `exact` only if the file will contain surfaces of a field. */
     private offerExact({ choices }: ExportFormat): void {
         const set = this.form.querySelector<HTMLFieldSetElement>("[data-choice=exact]")!;
         const hasSurfaces =

@@ -32,7 +32,7 @@ export type FileOptionName = keyof Omit<FileOptions, "format">;
 
 /**
  * The options of exported files on the command line, each with a list of its values. The list is empty for an option
- * that is a number or a list of numbers, and for `of`, whose values depend on the format.
+ * that is a number or a list of numbers. It is also empty for `of`, whose values depend on the format.
  */
 export const kFileOptions = {
     of: [],

@@ -56,17 +56,17 @@ export class FieldPanel {
     private readonly fog = new FogEditor((settings) => this.events.changeSettings(settings));
     private readonly observer = new ObserverControls((settings) => this.events.changeSettings(settings));
     private loaded: FormulaWithBox | undefined; // the formula that this page loaded last
-    // The settings that load() sent last, and the revision in the server's answer. Undefined after a state of this or a
-    // later revision has arrived.
+    // The settings that loadFormula() sent last, and the revision in the server's answer. Undefined after a state of
+    // this or a later revision has arrived.
     private sent: { settings: Settings; revision: number } | undefined;
     private state: State | undefined;
     // The last formula that this page loaded: its revision, the time of loading as in performance.now(), and whether
     // recordServerText() has seen a state with this formula.
     private lastLoad: { revision: number; time: number; isRecorded: boolean } | undefined;
-    private shownText = ""; // formulaKeyOf(), applied to the newest state
+    private shownText = ""; // formulaKeyOf() of the newest state: a text that identifies its formula
     // formulaKeyOf() of the last state whose formula this page loaded itself, or adopted in showForeignFormula().
     private ownText = "";
-    // What the user typed. An entry has the formulaKeyOf() of the first state with the loaded formula as its key.
+    // What the user typed, by the formulaKeyOf() of the first state with the loaded formula.
     private readonly typedFields = new Map<string, FormulaWithBox>();
 
     constructor(private readonly events: FieldPanelEvents) {
@@ -102,7 +102,10 @@ export class FieldPanel {
         return !this.root.hidden;
     }
 
-    /** Opens the panel. If the session does not show a field, loads the formula that is in the panel. */
+    /**
+     * Opens the panel. If the session does not show a field, loads the formula in the panel's text field into the
+     * session.
+     */
     open(): void {
         this.setOpen(true);
         // On a touch screen, a text field with the focus would open the keyboard over the panel.
@@ -173,7 +176,9 @@ export class FieldPanel {
         this.typedFields.set(this.ownText, loaded);
     }
 
-    /** Shows the formula of a state that this page did not load last: for example, the formula after an undo. */
+    /**
+     * Shows the formula of a state, if it is not the formula that this page loaded last: for example, after an undo.
+     */
     private showForeignFormula(state: State): void {
         this.recordServerText();
         const text = formulaKeyOf(state);
@@ -204,7 +209,7 @@ export class FieldPanel {
 
     private startFromExample(example: number): void {
         this.write(kExamples[example]!);
-        this.loaded = undefined; // so that load() sends no levels or slices of the old field
+        this.loaded = undefined; // so that loadFormula() sends no levels or slices of the old field
         this.example.selectedIndex = 0;
         this.scheduleLoad(0);
     }
@@ -338,8 +343,8 @@ function formulaKeyOf({ field }: State): string {
 }
 
 /**
- * The position of the slices along w. It stays when a formula is edited. The distance between slices is omitted,
- * because the server chooses a new one for each object.
+ * The settings that determine the position of the slices along w, which stays when a formula is edited. The distance
+ * between slices is omitted, because the server chooses a new one for each object.
  */
 function focusAndOffsetOf({ focus = 0, offset = 0 }: NonNullable<Settings["slices"]>): NonNullable<Settings["slices"]> {
     return { focus, offset };

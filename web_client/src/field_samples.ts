@@ -24,13 +24,13 @@ export interface LevelPointDescription {
     /** The revision of the picture that shows the point. */
     revision: number;
     /**
-     * The point about which the page may ask the server, in the form that `set` accepts. Valid only while `revision` is
-     * the newest.
+     * The point after the rotation, in the coordinates of the object's file. Present if the page may ask the server
+     * about the point. Valid only while `revision` is the newest.
      */
     point?: [number, number, number, number];
 }
 
-const kInterval = 70; // milliseconds between two questions, at least
+const kInterval = 70; // the least time between two questions to the server, in milliseconds
 
 export class FieldSamples {
     private wanted: LevelPointDescription | undefined;
@@ -54,7 +54,8 @@ export class FieldSamples {
 
     /**
      * Asks the server about this point, if it has a `point`. The server is asked one question at a time. If another
-     * point is wanted before a question is sent, only the newer one is asked about.
+     * point is wanted before a question is sent, only the newer one is asked about. If `point` is undefined, no further
+     * question is sent.
      */
     askAbout(point: LevelPointDescription | undefined): void {
         this.wanted = point;

@@ -30,7 +30,8 @@ export const kUsualBox: Box = [
 
 export const kMaxLevels = 4;
 
-const kSamePlace = 1e-9; // coordinates that differ by less than this fraction of the box are the same
+// Coordinates that differ by at most this fraction of the box's width along their axis count as the same.
+const kSamePlace = 1e-9;
 
 /** Whether the object of this state is a field. */
 export function isField({ levels }: State): boolean {
@@ -65,8 +66,8 @@ export function quantityOfColors({ field }: State): Quantity {
 }
 
 /**
- * The w of the focus slice. In parentheses follows the coordinate in the box of the field that all points of the slice
- * share: "0.25 (130 s)", or "0.25 (x 0.5 m)" if the slice is perpendicular to the axis x of the box. Omits the
+ * The w of the focus slice. In parentheses follows the coordinate that all points of the slice share in the box of the
+ * field: "0.25 (130 s)", or "0.25 (x 0.5 m)" if the slice is perpendicular to the axis x of the box. There are no
  * parentheses if this coordinate is w itself, without a unit, or if the slice is perpendicular to no axis of the box.
  */
 export function focusWithCoordinate(state: State): string {

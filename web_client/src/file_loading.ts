@@ -11,8 +11,8 @@ import { toSentence } from "./format";
 
 const kProgressInterval = 100; // milliseconds between two updates of the progress
 const kDefaultLimit = 8 * 2 ** 20; // bytes: the limit on messages, if the server states none
-const kMaxKept = 8; // at most as many objects as a session holds can be loaded again
-const kMaxExcerptWidth = 120; // longer lines of the file are cut to this many characters
+const kMaxKept = 8; // the most objects that can be loaded again: as many as a session holds
+const kMaxExcerptWidth = 120; // in the excerpt of a faulty file, longer lines are cut to this many characters
 
 /** An object that can be loaded again: a text, an array, or a field of the server's data folder. */
 type ReloadableObject = LoadContent | File | { name: string; path: string };
@@ -139,7 +139,7 @@ export class FileLoading {
     private showSent(part: number): void {
         this.showReport(part < 1 ? `Sending the file: ${Math.floor(100 * part)}%` : "Checking the file");
         if (part < 1) this.progress.value = part;
-        else this.progress.removeAttribute("value"); // the server does not report progress
+        else this.progress.removeAttribute("value"); // the server does not report the progress of its check
     }
 
     private async send(content: LoadContent): Promise<Done> {

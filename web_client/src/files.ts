@@ -13,7 +13,7 @@ export interface LoadContent {
 /** The error with which the page refuses a file before sending it. The message states the reason. */
 export class FileError extends Error {}
 
-const kMaxNameLength = 64; // characters, as in the message `load`
+const kMaxNameLength = 64; // the most characters of a name, as in the message `load`
 
 /**
  * Reads the text of a polytope or a list of points from a file. Throws FileError if the file is empty, or too large to

@@ -18,8 +18,8 @@ export class FocusMover {
     private seen: FocusAtRevision = { w: 0, revision: 0 }; // the focus in the newest state that has arrived
 
     /**
-     * `settled` is called when all moves have been answered and none is left to send. If the last move failed, it gets
-     * the error.
+     * `settled` is called when all moves have been answered and none is left to send. If the last move failed,
+     * `settled` gets the error.
      */
     constructor(
         private readonly client: Client,

@@ -11,7 +11,7 @@ export type Point4 = State["point"];
 
 export interface FocusPointEvents {
     /**
-     * Called when a drag or another gesture begins that moves the focus point. Such a gesture may also move the focus
+     * Called when a gesture that moves the focus point begins, such as a drag. The gesture may also move the focus
      * slice, because this slice lies at the w of the focus point.
      */
     gestureBegan(): void;
@@ -28,7 +28,7 @@ export class FocusPointControl {
     private continues = false; // whether the next move joins the undo step of the last move
     private current = kOrigin; // the focus point of the session
     private readonly lastChange = new OldStateDetector();
-    private origin = kOrigin; // add it to coordinates in the picture to get coordinates in the object's file
+    private origin = kOrigin; // the vector to add to coordinates in the picture to get coordinates in the object's file
 
     constructor(
         private readonly client: Client,

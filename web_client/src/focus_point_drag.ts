@@ -9,7 +9,7 @@ import type { Stage } from "./picture/stage";
 
 export class FocusPointDrag {
     private panel: MatrixPanel | undefined; // the panel in which the drag began
-    private hovering: AreaPoint | undefined; // where the mouse hovers
+    private hovering: AreaPoint | undefined; // where the mouse hovers; undefined if it does not
 
     /**
      * `matrix` returns the matrix of planar sections in the picture; undefined if the picture has none, or while the
@@ -52,8 +52,8 @@ export class FocusPointDrag {
     }
 
     /**
-     * Moves the focus point to the point of 4-D space that a matrix panel shows at the point `at` of the drawing.
-     * Returns false if no panel is at this point.
+     * Moves the focus point to the 4-D point that a matrix panel shows at the place `at` of the drawing. Returns false
+     * if no panel is at this place.
      */
     moveTo(at: AreaPoint): boolean {
         const panel = this.panelAt(at);

@@ -18,7 +18,7 @@ export interface FocusSliderEvents {
 }
 
 const kSnapDistance = 4; // pixels: a drag this near to a mark snaps to the mark
-const kKeySteps = 200; // steps of the arrow keys from one end to the other
+const kKeySteps = 200; // the number of presses of an arrow key that move the focus from one end to the other
 const kMaxMarks = 60; // if there are more critical values, their density is shown instead of marks
 const kDensityBins = 80;
 
@@ -28,7 +28,8 @@ export class FocusSlider {
     private readonly section = byId("focus-section");
     private readonly playButton = byId<HTMLButtonElement>("focus-play");
     private readonly speed = byId<HTMLSelectElement>("focus-speed");
-    private readonly otherSpeed = element("option", {}); // listed only while no other entry has the speed
+    // An entry for the speed of the session, listed only while no other entry has this speed.
+    private readonly otherSpeed = element("option", {});
     private readonly criticalValues: CriticalValues;
     private readonly mover: FocusMover;
     private state: State | undefined;
@@ -81,7 +82,7 @@ export class FocusSlider {
             this.stop();
         });
         for (const end of ["pointerup", "pointercancel"]) {
-            // Firefox reports the last value of a drag only after the event pointerup.
+            // Firefox reports the last value of a drag only after the event pointerup, so the drag ends one task later.
             window.addEventListener(end, () => setTimeout(() => (this.isDragged = false)));
         }
         window.addEventListener("pointermove", (event) => this.noteModifiers(event));
@@ -112,14 +113,17 @@ export class FocusSlider {
         this.show();
     }
 
-    /** Moves the focus to the slider's value, after a drag or a step by assistive technology. Also ends playing. */
+    /**
+     * Moves the focus to the slider's value, after a drag or a step by assistive technology. The server then ends
+     * playing.
+     */
     private slid(): void {
         this.moveTo(this.snapped(this.input.valueAsNumber));
     }
 
     /**
-     * Snaps `w` to a mark during a drag without Alt and Shift. Returns the w of the nearest mark if it is at most
-     * kSnapDistance pixels away; otherwise returns `w`.
+     * Returns the w of the mark that is nearest to `w`, if the user drags without Alt and Shift and the mark is at most
+     * kSnapDistance pixels away. Otherwise returns `w`; also while no marks are shown, or their w are not exact.
      */
     private snapped(w: number): number {
         const { all, isExact } = this.criticalValues;

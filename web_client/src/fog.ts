@@ -8,7 +8,7 @@ import { roundedToDigitsOfSize } from "./format";
 export const kMinFogControlPoints = 2;
 export const kMaxFogControlPoints = 8;
 // The significant digits to which the values and opacities of control points are rounded. The digits of a value count
-// from the first digit of the difference between neighboring points.
+// from the first digit of a difference between values (see roundedToDigitsOfSize()).
 const kDigits = 4;
 
 /** How often the values of a field occur. */
@@ -28,8 +28,8 @@ export function valueDistributionOf({ histogram, density, scene }: Slices): Valu
     if (!histogram) return undefined;
     const { columns } = scene.coordinates;
     const rows = density.length / columns;
-    // A number in `density` is the cube root of how often a value of the field occurs. Row 0 belongs to the greatest
-    // value.
+    // `density` is an image whose rows belong to values of the field, row 0 to the greatest. Its columns belong to
+    // parts of the field. A tone is proportional to the cube root of how often the value occurs in the part.
     const counts = Array.from({ length: rows }, (_, row) => {
         let sum = 0; // a loop, for speed: this runs for each picture
         for (const tone of density.subarray((rows - 1 - row) * columns, (rows - row) * columns)) sum += tone ** 3;
@@ -39,7 +39,7 @@ export function valueDistributionOf({ histogram, density, scene }: Slices): Valu
     return { range: histogram.range, tones: counts.map((count) => Math.cbrt(count / most)) };
 }
 
-// Tones that differ by less than this look the same. Rounding errors of a turning object stay below it.
+// Tones that differ by less than this look the same. Rounding errors of a turning object stay below this difference.
 const kVisible = 0.02;
 
 /** Whether two distributions look the same. */
@@ -60,7 +60,7 @@ export function defaultFog([least, greatest]: [number, number], level: number, i
         { value: edge, opacity: 0.5 },
         { value: edge + (far - edge) / 4, opacity: 0 },
     ];
-    // The smaller one of the two differences between neighboring values.
+    // The smaller one of the two differences between the values of neighboring points.
     const size = Math.min(Math.abs(edge - deep), Math.abs(far - edge) / 4);
     const rounded = points.map(({ value, opacity }) => ({ value: roundedToDigitsOfSize(size, value, kDigits), opacity }));
     return inside === "below" ? rounded : rounded.reverse();
@@ -110,8 +110,8 @@ export function isValidTransferFunction(points: FogControlPoint[]): boolean {
 }
 
 /**
- * The control points after point i has moved to `value` and `opacity`. The move stops at the neighbors of point i and
- * at `ends`, the least and the greatest allowed value.
+ * The control points after point i has moved to `value` and `opacity`. The move stops shortly before the neighbors of
+ * point i, and at `ends`, the least and the greatest allowed value.
  */
 export function withMovedPoint(points: FogControlPoint[], i: number, value: number, opacity: number, ends: [number, number]): FogControlPoint[] {
     const gap = (ends[1] - ends[0]) / 1000;

@@ -1,5 +1,5 @@
-// The editor for the transfer function of fog. It shows a curve of opacity with draggable control points, over the
-// distribution of the field's values, and number fields for the same points.
+// The editor for the transfer function of fog. It shows a curve of opacity with draggable control points, and behind
+// the curve the distribution of the field's values. Number fields show the same points.
 
 import type { FogControlPoint, Settings, Slices, State } from "@oval4d/protocol";
 
@@ -13,7 +13,8 @@ import { NewestValueSender } from "./newest_only";
 import { OldStateDetector } from "./old_state_detector";
 
 const kTypingDelay = 150; // milliseconds without further typing before a change is sent
-const [kWidth, kHeight, kMargin] = [240, 96, 9]; // the size and margin of the curve, in units of its viewBox
+// The width, height and margin of the curve's SVG, in units of its viewBox.
+const [kWidth, kHeight, kMargin] = [240, 96, 9];
 const kSvg = "http://www.w3.org/2000/svg";
 
 /** The row of a control point: its input fields, and the button that removes the point. */
@@ -39,7 +40,7 @@ export class FogEditor {
     private rows: FogControlPointRow[] = [];
     private points: FogControlPoint[] = []; // the control points that the editor shows
     private state: State | undefined;
-    private field = ""; // fieldKeyOf(), applied to the newest state
+    private field = ""; // fieldKeyOf() of the newest state: a text that identifies its field
     // How the values of the state's field are distributed; undefined until a picture of the field has a histogram.
     private distribution: ValueDistribution | undefined;
     private ends: [number, number] = [0, 1]; // the least and the greatest value that the curve shows
@@ -272,7 +273,7 @@ export class FogEditor {
         remove.addEventListener("click", () => {
             this.change(this.points.filter((_, k) => k !== i));
             const next = this.rows[Math.min(i, this.rows.length - 1)]!.remove;
-            // The rows have been replaced, so that none of them has the focus.
+            // The rows have been removed and inserted again, so none of them has the focus.
             (next.disabled ? this.addButton : next).focus();
         });
         const root = element("div", { role: "group", "aria-label": `Point ${i + 1}` }, value, opacity, color, remove);

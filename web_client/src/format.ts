@@ -5,7 +5,7 @@ import type { State } from "@oval4d/protocol";
 const kMinus = "\u2212";
 const kMaxPlanes = 3; // the most planes that the text of a rotation lists
 const kMaxPlainDecimals = 9; // with more decimals, small numbers are written with an exponent
-const kMostDigits = 17; // the significant digits that identify a number in double precision
+const kMostDigits = 17; // this many significant digits identify every number in double precision
 
 /** Formats a number with at most `decimals` decimals, without trailing zeros. */
 export function formatDecimal(value: number, decimals: number): string {
@@ -38,7 +38,10 @@ export function formatCoordinate(value: number, spacing: number): string {
     return formatRounded(value, Math.max(3, 1 - exponentOf(spacing)));
 }
 
-/** Formats a value of a field with at most three decimals, or with three significant digits if it is below 0.01. */
+/**
+ * Formats a value of a field with at most three decimals, or with three significant digits if its absolute value is
+ * below 0.01.
+ */
 export function formatFieldValue(value: number): string {
     const size = Math.abs(value);
     return formatRounded(value, size === 0 || size >= 0.01 ? 3 : 2 - exponentOf(size));
@@ -46,7 +49,7 @@ export function formatFieldValue(value: number): string {
 
 /**
  * Formats a number with at most `decimals` decimals, without trailing zeros. If `decimals` is above kMaxPlainDecimals,
- * writes numbers below 1e-4 with an exponent.
+ * writes numbers whose absolute value is below 1e-4 with an exponent.
  */
 function formatRounded(value: number, decimals: number): string {
     if (decimals <= kMaxPlainDecimals) return formatDecimal(value, decimals);
@@ -59,9 +62,10 @@ function formatRounded(value: number, decimals: number): string {
 }
 
 /**
- * Rounds `value` to the decimal place of the last of the first `digits` digits of `size`. With the size 0.5 and 3
- * digits, the place is the thousandths: 1234.56789 becomes 1234.568. A value below `size` is rounded to `digits`
- * significant digits. `size` is, for example, the difference between two values that must stay distinguishable.
+ * Rounds `value` to the last decimal place of `size`, written with `digits` significant digits. The size 0.5 with 3
+ * digits is 0.500, which ends with the thousandths: 1234.56789 becomes 1234.568. A value below `size` is rounded to
+ * `digits` significant digits. `size` is, for example, the difference between two values that must stay
+ * distinguishable.
  */
 export function roundedToDigitsOfSize(size: number, value: number, digits: number): number {
     const more = exponentOf(value) - exponentOf(size) || 0; // 0 if `size` is not finite

@@ -66,7 +66,10 @@ export function withConstant(formula: string, name: string, value: string): stri
     return formula.slice(0, from) + value + formula.slice(from + text.length);
 }
 
-/** The comparison operator in a formula, such as "<"; "" without one. The meaning of the levels depends on it. */
+/**
+ * The comparison operator in a formula, such as "<"; "" without one. The meaning of the levels depends on this
+ * operator.
+ */
 export function comparisonOperatorIn(formula: string): string {
     return /[<>]=?|=/.exec(formula.replace(kDefinitions, ""))?.[0] ?? "";
 }

@@ -13,7 +13,7 @@ export class FrameHitTesterCache {
     private known: HitTester | undefined;
     private knownFor = ""; // the layoutKey() of the picture whose hit tester is known or requested
 
-    /** `onKnown` is called after currentOrRequestHitTester() has requested a hit tester and it has arrived. */
+    /** `onKnown` is called when a hit tester that currentOrRequestHitTester() has requested has arrived. */
     constructor(
         private readonly client: Client,
         private readonly stage: Stage,

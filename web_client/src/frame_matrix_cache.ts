@@ -1,5 +1,5 @@
-// Knows where the matrix of planar sections is in the pictures that the server draws. The page requests its place when
-// a matrix appears, so that the user can drag in it at once.
+// Knows where the pictures that the server draws show the matrix of planar sections. The page requests the place of the
+// matrix when the matrix appears, so that the user can drag in it at once.
 
 import type { Client, SectionMatrix, State } from "@oval4d/protocol";
 
@@ -18,8 +18,8 @@ export class FrameSectionMatrixCache {
     ) {}
 
     /**
-     * The matrix as the server sent it last. Its sections may belong to an earlier picture. Undefined if its place is
-     * not known, or if no matrix is shown.
+     * The matrix as the server sent it last. Its sections may belong to an earlier picture. Undefined if the place of
+     * the matrix is not known, or if no matrix is shown.
      */
     get current(): SectionMatrix | undefined {
         return this.known;

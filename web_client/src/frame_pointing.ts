@@ -1,6 +1,6 @@
 // Names what is under the pointer in pictures that the server draws. The page asks the server which element, or which
-// surface of a field, is at a pixel. It then requests a picture in which this element is highlighted, and shows it
-// while the pointer stays on the element.
+// surface of a field, is at a pixel. It then requests a picture in which this element is highlighted, and shows this
+// picture while the pointer stays on the element.
 //
 // A key pressed meanwhile waits for these answers, because the server handles a page's messages one after the other.
 // The page therefore asks about one point at a time, once per animation frame. It asks only while the picture rests and
@@ -15,7 +15,7 @@ import type { Stage } from "./picture/stage";
 
 // A picture rests after this many milliseconds without a new picture. This is longer than a step of continuous turning.
 const kRest = 200;
-const kNear = 8; // pixels: an answer is ignored if the pointer has moved farther than this meanwhile
+const kNear = 8; // pixels: an answer is ignored if the pointer has moved farther than this since the question
 // Pixels: the label follows the pointer up to this distance from the named point, until the next answer arrives.
 const kFollow = 24;
 
@@ -29,7 +29,7 @@ export class FramePointerHighlighter {
     private isLighting = false; // whether a picture has been requested and has not arrived
     private resting: ReturnType<typeof setTimeout> | undefined;
 
-    /** `isIdle` tells whether the revision is the newest one and all commands are answered. */
+    /** `isIdle(revision)` tells whether this revision is the newest one and all commands are answered. */
     constructor(
         private readonly drawing: HTMLElement,
         private readonly stage: Stage,
@@ -123,8 +123,8 @@ export class FramePointerHighlighter {
     }
 
     /**
-     * Requests and shows a picture in which the element is highlighted, unless the pointer leaves the element before it
-     * arrives.
+     * Requests and shows a picture in which the element is highlighted, unless the pointer leaves the element before
+     * the picture arrives.
      */
     private highlightElement(element: PolytopeElement): void {
         if (element.element === this.lit?.element && element.number === this.lit.number) return;

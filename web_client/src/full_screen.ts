@@ -1,7 +1,8 @@
 // Full-screen display, as on a projector. The texts become large enough for the back of a room.
 
 export class FullScreenMode {
-    private readonly display = matchMedia("(display-mode: fullscreen)"); // also matches after F11
+    // Also matches when F11 has made the page full-screen.
+    private readonly display = matchMedia("(display-mode: fullscreen)");
     private wasOn = false;
 
     /** `changed` is called when the page enters or leaves full screen. */

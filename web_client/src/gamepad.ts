@@ -1,13 +1,14 @@
 // Turns the polytope by gamepads. While a gamepad is connected, it is read once per animation frame. Only gamepads with
-// the standard mapping of the W3C's Gamepad specification are used, because the places of their sticks and triggers are
-// known. A gamepad is used only after all its sticks, triggers and bumpers have been at rest once: an axis of another
-// device, such as a joystick, may stay at one end.
+// the standard mapping (W3C, Gamepad) are used, because the places of their sticks and triggers are known. A gamepad is
+// used only after all its sticks, triggers and bumpers have been at rest once: an axis of another device, such as a
+// joystick, may stay at one end.
 
 import { turnsOfGamepad } from "./rolling_ball";
 import type { RotationSender } from "./rotation";
 
-const kPause = 300; // milliseconds at rest after which a gesture has ended
-const kMaxInterval = 100; // milliseconds: if the page is busy and polls later, this is the interval that counts
+const kPause = 300; // milliseconds without a turn after which a gesture has ended
+// Milliseconds: the longest interval between two polls that counts; a busy page may poll later.
+const kMaxInterval = 100;
 
 export function listenForGamepads(rotation: RotationSender): void {
     let polledAt: number | undefined; // the time of the last poll in milliseconds; undefined while no gamepad is polled

@@ -37,7 +37,8 @@ export function listenForGestures(drawing: HTMLElement, targets: GestureTargets)
     let isClick = false; // whether the pointer has stayed in its place since it went down
     let isRolling = false; // whether the drag began with Alt, or with another button than the left one
     let movesPoint = false; // whether the drag began in a panel of the matrix
-    let group: MultiTouchGesture | undefined; // two or three fingers
+    // The gesture of two or three fingers; undefined for other numbers of fingers.
+    let group: MultiTouchGesture | undefined;
     const moved = new Set<number>(); // the fingers that have moved since the last call of moveGroup()
     let wheelAt = -Infinity; // time of the last wheel event that turned the polytope, in milliseconds
 
@@ -84,14 +85,14 @@ export function listenForGestures(drawing: HTMLElement, targets: GestureTargets)
             void targets.highlightAndOpenMenu(placeOf(event)).then((hasOpened) => (isMenuOpen = hasOpened));
         }, kLongPress);
     });
-    // Suppresses the mouse events that follow a touch: they would take the focus from the menu.
+    // Suppresses the mouse events that follow a long press: they would take the focus from the menu.
     drawing.addEventListener("touchend", (event) => isLongPress && event.cancelable && event.preventDefault(), {
         passive: false,
     });
     drawing.addEventListener("pointerup", (event) => {
         if (isClick && event.button === kButtons.right) void targets.highlightAndOpenMenu(placeOf(event));
     });
-    // Some systems open the browser's own menu when the button goes down, others when it is released after a drag.
+    // The browser's own menu must not open. Some systems open it when the button goes down, others when it is released.
     drawing.addEventListener("contextmenu", (event) => event.preventDefault());
     drawing.addEventListener("mousedown", (event) => {
         if (event.button === kButtons.middle) event.preventDefault(); // keeps the browser from scrolling
@@ -105,7 +106,8 @@ export function listenForGestures(drawing: HTMLElement, targets: GestureTargets)
         isClick = false;
         fingers.set(event.pointerId, event);
         if (group) {
-            // Fingers that move together have an event each. Before the last one, they seem to spread and to twist.
+            // Fingers that move together have an event each. Before the last of these events, the fingers seem to
+            // spread and to twist.
             const isAgain = moved.has(event.pointerId);
             moved.add(event.pointerId);
             if (isAgain || moved.size === fingers.size) moveGroup();
@@ -126,7 +128,7 @@ export function listenForGestures(drawing: HTMLElement, targets: GestureTargets)
     drawing.addEventListener(
         "wheel",
         (event) => {
-            if (event.ctrlKey) return; // the browser's own zoom
+            if (event.ctrlKey) return; // the browser zooms the page
             event.preventDefault();
             const delta = event.deltaY || event.deltaX; // while Shift is held, some systems report deltaX instead
             const pixels = event.deltaMode === WheelEvent.DOM_DELTA_PIXEL ? delta : delta * kLineHeight;

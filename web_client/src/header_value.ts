@@ -3,7 +3,7 @@
 import { byId, element } from "./element";
 import { toSentence } from "./format";
 
-const kMargin = 4; // pixels between the note and the edge of the window
+const kMargin = 4; // the least distance, in pixels, of the note below the field from the right edge of the window
 
 export interface HeaderValueEvents {
     /** Returns the text with which the field opens. It may differ from the shown value, which is rounded. */

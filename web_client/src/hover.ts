@@ -7,8 +7,8 @@ export interface AreaPoint {
 }
 
 /**
- * Calls `moved` with the place of the pointer in `area`, or with undefined if the pointer leaves `area`, has a button
- * down, or is a finger.
+ * Calls `moved` with the place of the pointer in `area` whenever the pointer moves. The place is undefined if the
+ * pointer leaves `area`, has a button down, or is a finger.
  */
 export function followHover(area: HTMLElement, moved: (at: AreaPoint | undefined) => void): void {
     const follow = ({ pointerType, buttons, clientX, clientY }: PointerEvent): void => {

@@ -107,7 +107,7 @@ export class Keyboard {
         }
         const { first } = this;
         const begins = !stroke.ctrl && this.keys.some(({ key }) => key.length === 2 && key[0] === stroke.key);
-        if (begins && held) return; // a held key is not pressed twice
+        if (begins && held) return; // a held first key does not begin the sequence again
         this.ended = first && !stroke.ctrl ? this.keys.find(({ key }) => key === first.key + stroke.key) : undefined;
         this.first = begins && !this.ended ? stroke : undefined;
         if (first && this.ended) this.send(first, false);

@@ -1,7 +1,7 @@
 // Converts keyboard events to keystrokes of the key table. The server decides what a keystroke does.
 //
-// In a row of the key table, `key` is one character, a sequence of two characters, or the name of a key, which has more
-// characters.
+// In a row of the key table, `key` is one character, a sequence of two characters, or the name of a key. Names of keys
+// have more than two characters.
 
 import type { KeyBinding } from "@oval4d/protocol";
 
@@ -9,7 +9,7 @@ const kTextFields = "textarea, select, [contenteditable], input:not([type=radio]
 const kButtons = "button, a[href]";
 const kButtonKeys = /^( |Enter)$/;
 const kInputKeys = /^( |Enter|Home|End|(Arrow|Page).*)$/; // sliders, radio buttons and checkboxes use these keys
-const kNumber = /^[\d.]/; // how an entry begins in a list of numbers, which uses the keys of these characters
+const kNumber = /^[\d.]/; // how every entry of a list of numbers begins; such a list uses the keys of these characters
 
 /** The members of a `key` message. */
 export interface KeyStroke {
@@ -48,9 +48,9 @@ export function undoOrRedoOf(event: KeyboardEvent): "undo" | "redo" | undefined 
 }
 
 /**
- * Converts a keyboard event to a keystroke of the key table. Undefined while a text is composed (IME), while a modifier
- * other than Shift and Ctrl is held, and for keys that are not in the table. The first rule that applies gives the
- * keystroke's key:
+ * Converts a keyboard event to a keystroke of the key table. Undefined for keys that are not in the table, while an
+ * input method composes a text, and while a modifier other than Shift and Ctrl is held. The first rule that applies
+ * gives the keystroke's key:
  * - A key that types a character of the table counts as this character. On a French keyboard, digit keys type "(" and
  *   "-".
  * - A key of a non-Latin script counts as the character in the same place on an American keyboard.
@@ -129,8 +129,8 @@ const kPunctuation: Record<string, string> = {
 };
 
 /**
- * The character of this key on an American keyboard, if the event types a letter of a non-Latin script; otherwise the
- * letter in `code`, or "\0" without one.
+ * The character that this key types on an American keyboard: for a letter key, the capital letter; for a punctuation
+ * key that types a letter of a non-Latin script, the character in kPunctuation. "\0" for all other keys.
  */
 function characterOnUsKeyboard({ code, key, shiftKey }: KeyboardEvent): string {
     if ([...key].length !== 1) return "\0"; // `key` is a name, not a character

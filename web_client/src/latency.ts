@@ -11,11 +11,11 @@ import { byId } from "./element";
 import { loadFromStorage, saveToStorage } from "./storage";
 import type { RenderingMode } from "./picture/stage";
 
-export const kMeasure = "oval4d key to picture"; // name of the performance measures
+export const kMeasure = "oval4d key to picture"; // the name of all performance measures that the page records
 
 const kMaxSamples = 10_000;
 const kRecentSamples = 500; // the statistics on the page cover this many newest samples
-const kShownKey = "oval4d.latency"; // storage key of whether the statistics are shown
+const kShownKey = "oval4d.latency"; // key in sessionStorage: whether the statistics are shown
 
 interface LatencySample {
     /** When the request was sent, in milliseconds as in performance.now(). */
@@ -69,7 +69,10 @@ export class LatencyMeter {
         this.presentedRevision = 0;
     }
 
-    /** Executes a command about latency; returns false for any other command. */
+    /**
+     * Executes a command about latency; returns false for any other command. Throws an Error if there is nothing to
+     * export.
+     */
     execute(line: string): boolean {
         const command = line.trim().replace(/\s*=\s*/, "=").replace(/\s+/g, " ");
         if (/^set latency(=on)?$/.test(command)) this.setShown(true);

@@ -6,8 +6,8 @@ import type { State, Viewport } from "@oval4d/protocol";
 /**
  * Returns a text that changes whenever the layout of a picture of this size may change. The text is the state as JSON,
  * without two groups of members. Some members, such as the orientation, never move a part of the picture; others
- * describe the object, which `object_serial` identifies. Listing the members to omit, instead of those to keep,
- * includes every new setting.
+ * describe the object, which `object_serial` identifies. The function lists the members to omit, not those to keep, so
+ * that the text includes every new setting.
  */
 export function layoutKey(state: Partial<State>, size: Viewport): string {
     const { id, type, revision, draft, moving, turning, orientation, last, section, point, ...settings } = state;

@@ -51,7 +51,8 @@ export function extractInitialView(): InitialView {
 
 /**
  * The session of a shared link in the address bar, if there is one. Remembers the session, and removes the link's
- * fragment, which contains the token, from the address bar. `fault` tells whether the name or the token is missing.
+ * fragment, which contains the token, from the address bar. `fault` is an error message if the name or the token is
+ * missing.
  */
 export function extractSharedSession(): { credentials?: Credentials; fault?: string } {
     const fragment = new URLSearchParams(repairedQuery(location.hash.slice(1)));
@@ -81,7 +82,7 @@ function sessionOfTab(): Credentials | undefined {
     return location.search === "" && stored?.query === "" ? stored.credentials : undefined;
 }
 
-/** Remembers the session for reloads of the page, and for a return to this entry of the browser's history. */
+/** Remembers the session for reloads of the page, and for a return to the current entry of the browser's history. */
 export function rememberSession({ session, token }: Credentials): void {
     const credentials = { session, token };
     const entry: BrowserHistoryEntry = { credentials };
@@ -120,7 +121,10 @@ export function viewLink(query: string): string {
     return link.href;
 }
 
-/** Decodes percent signs. Returns the text unchanged if it is not valid UTF-8, so that an error message can show it. */
+/**
+ * Decodes percent-encoded characters, such as %20. Returns the text unchanged if it is not valid UTF-8, so that an
+ * error message can show it.
+ */
 function decodePercents(text: string): string {
     try {
         return decodeURIComponent(text);
@@ -145,7 +149,7 @@ function isIgnoredParameter(name: string): boolean {
 /**
  * The parameters of a query, without those that protocol/address.json ignores. "+" stands for a blank, as in a form,
  * also before a unit: 10+deg. Between two operands, "+" is a plus sign, because a person may have typed it: 0.1+pi/8.
- * The server uses the same rules.
+ * Values that are texts, such as names, have no operands. The server uses the same rules.
  */
 function queryParameters(query: string): [name: string, value: string][] {
     const parts = repairedQuery(query)
@@ -167,9 +171,9 @@ function queryParameters(query: string): [name: string, value: string][] {
 }
 
 /**
- * The field that a query describes, such as "?formula=x^2+y^2<w&box=-1,1,-1,1,-1,1,0,2"; absent without `formula`. If
- * `box` is not valid, `faults` says so, and the field has kUsualBox. Without `formula`, `faults` has a text for each of
- * `box` and `values` in the query.
+ * The field that a query such as "?formula=x^2+y^2<w&box=-1,1,-1,1,-1,1,0,2" describes. If the query has no `formula`,
+ * there is no `field` in the result, and `faults` has a text for each of `box` and `values` in the query. If `box` is
+ * not valid, `faults` says so, and the field has kUsualBox.
  */
 function fieldInQuery(query: string): Pick<InitialView, "field" | "faults"> {
     const { formula, box, values } = Object.fromEntries(queryParameters(query));

@@ -1,7 +1,7 @@
 // A gesture of two or more fingers on the drawing: their common movement, spread and twist. A movement or a twist
 // counts only after it has left a dead zone, so that a pinch does not also turn the polytope.
 
-const kMoveDeadZone = 16; // pixels; a smaller movement has no effect
+const kMoveDeadZone = 16; // pixels; a smaller movement of the fingers' center has no effect
 const kTwistDeadZone = 0.15; // radians; a smaller twist has no effect
 
 /** The position of a finger in the window, in CSS pixels. */

@@ -14,8 +14,8 @@ export class NewestValueSender<T> {
     }
 
     /**
-     * Sends a value after `delay` milliseconds, and after the answer to the previous value. Drops it if a newer value
-     * is submitted before it is sent.
+     * Sends a value after `delay` milliseconds, and after the answer to the previous value. Drops the value if a newer
+     * one is submitted before it is sent.
      */
     submit(value: T, delay: number): void {
         this.waiting = value;

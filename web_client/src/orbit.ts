@@ -11,7 +11,7 @@ const kInitial: Orbit = { azimuth: 0, elevation: 0, zoom: 1 };
 const kLimits = { elevation: 1.5, zoom: [0.25, 10] as const };
 const kLeastVisible = 0.5; // the least fraction of the slices that orbiting and zooming keep in the picture
 const kBisections = 10;
-// zoomBy() says that a limit has stopped the zoom if the zoom changes by no more than this fraction.
+// zoomBy() tells the user that a limit has stopped the zoom if the zoom changes by no more than this fraction.
 const kNoticedZoomChange = 1e-3;
 
 const kAngleStep = Math.PI / 36; // the angle by which one key press moves the camera, in radians

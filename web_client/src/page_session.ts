@@ -21,12 +21,13 @@ interface PageSessionActions {
 }
 
 export class PageSession {
-    // The last state of a session that was lost or that beginNewSession() has left. The new session restores this state.
+    // The last state of a session that was lost, or that beginNewSession() has left. The new session restores this
+    // state.
     private lostState: State | undefined;
     // Whether a command of the initial view has been sent, over this connection or an earlier one.
     private isViewBegun = false;
 
-    /** `view` is what the page shows at the start. */
+    /** `view` tells what the page shows at the start (see link.ts). The functions of this class change it. */
     constructor(
         private readonly client: Client,
         private readonly view: InitialView,
@@ -52,7 +53,8 @@ export class PageSession {
         const { credentials, fault } = extractSharedSession();
         if (fault) this.actions.tellFaults([fault]);
         if (credentials) this.joinWithCredentials(credentials);
-        else if (this.client.credentials) rememberSession(this.client.credentials); // for the new entry of the history
+        // The pasted address has made a new entry of the history, which needs the session.
+        else if (this.client.credentials) rememberSession(this.client.credentials);
     }
 
     /**

@@ -123,7 +123,9 @@ export function showSchemePressed(choice: ColorSchemeChoice): void {
     }
 }
 
-/** Marks the tilt button as pressed whose ball the device's orientation rolls. */
+/**
+ * Marks as pressed the tilt button of the ball that the device's orientation rolls; no button if `ball` is undefined.
+ */
 export function showTiltPressed(ball: RollingBallKind | undefined): void {
     for (const kind of kTilts.keys()) {
         document.querySelector(`[data-page-tool="tilt_${kind}"]`)?.setAttribute("aria-pressed", String(kind === ball));

@@ -81,8 +81,8 @@ export class PolytopePicker {
     }
 
     /**
-     * Searches for the new text in the search field. If an earlier choice is still being loaded, its arrival no longer
-     * closes the dialog.
+     * Searches for the new text in the search field. If an earlier choice is still being loaded, the dialog no longer
+     * closes when the choice has been loaded.
      */
     private searchAnew(): void {
         ++this.choiceNumber;

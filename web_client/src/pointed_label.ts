@@ -31,7 +31,7 @@ export interface ElementDescription extends PolytopeElement {
 
 const kAxes = ["x", "y", "z", "w"] as const;
 const kGap = 14; // pixels between the pointer and the label
-const kMargin = 4; // pixels between the label and the edges of the drawing
+const kMargin = 4; // the least distance, in pixels, of the label from the edges of the drawing
 
 /** What the label describes. */
 export type PointedDescription = ElementDescription | LevelPointDescription;
@@ -97,7 +97,7 @@ function formatPlaceInBox(place: readonly number[], state: State | undefined): s
     const format = (coordinate: number, axis: number): string => {
         const [least, most] = box?.[axis] ?? [0, 1];
         const unit = units?.[kAxes[axis]!];
-        // Rounds as if slices were a tenth of the box apart.
+        // Rounds as if neighboring slices were a tenth of the box's width apart.
         return formatCoordinate(coordinate, (most - least) / 10) + (unit === undefined ? "" : ` ${unit}`);
     };
     return place.map(format).join(", ");
@@ -123,7 +123,8 @@ function describeLevel(
         const name = values?.quantity?.name || values?.variable || "second value";
         parts.push(`${name} ${withUnit(second, values?.quantity?.unit)}`);
     }
-    if (sliceW !== undefined) parts.push(`slice w ${formatW(sliceW, slices?.spacing ?? 1)}`); // as in its label
+    // Rounded like the label of the slice.
+    if (sliceW !== undefined) parts.push(`slice w ${formatW(sliceW, slices?.spacing ?? 1)}`);
     return parts.join(" · ");
 }
 
@@ -143,7 +144,7 @@ function describeElement(described: ElementDescription, measured: Partial<Measur
     if (shape !== undefined) parts.push(shape + kindText);
     const { length, area, volume }: Partial<Measured> = state && spokenReferenceFrame(state) === "" ? measured : {};
     const sizes = { length: described.length ?? length, area, volume };
-    const unit = measured.unit === undefined ? "" : ` ${measured.unit}`; // the unit of a field's box
+    const unit = measured.unit === undefined ? "" : ` ${measured.unit}`; // known only for a field whose box has units
     for (const [name, size] of Object.entries(sizes)) {
         if (size !== undefined) parts.push(`${name} ${formatLength(size)}${unit}`);
     }

@@ -38,14 +38,14 @@ export class PointerHighlighter {
     private shown: PointedElement | undefined; // the element that is highlighted
     private isComplete = false; // whether all parts that show the element are highlighted
     private namesLevel = false; // whether the label describes a level of a field
-    private restsAt = 0; // the time at which the picture rests, in milliseconds of performance.now()
+    private restsAt = 0; // the time from which on the picture rests, in milliseconds as in performance.now()
     private resting: ReturnType<typeof setTimeout> | undefined;
-    private hitTester: HitTester | undefined; // of the picture in which the element was found
+    private hitTester: HitTester | undefined; // the hit tester of the picture in which the element was found
     private isTapped = false; // whether the label describes what a finger has tapped
 
     /**
-     * `complete` must be called after each new answer in `measurements`. `mayShowObject` tells whether the picture of a
-     * revision may show the object of the present state.
+     * completeHighlight() must be called after each new answer in `measurements`. `mayShowObject(revision)` tells
+     * whether the picture with this revision may show the object of the present state.
      */
     constructor(
         private readonly drawing: HTMLElement,

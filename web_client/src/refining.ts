@@ -1,4 +1,5 @@
-// Shows, at the top of the picture, that a coarse level of a multiscale image is shown and that a finer one is to follow.
+// Shows a text at the top of the picture while the picture shows a coarse level of a multiscale image, and a finer
+// level will follow.
 
 import type { State } from "@oval4d/protocol";
 

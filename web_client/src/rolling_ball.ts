@@ -5,7 +5,9 @@
 
 import type { Plane } from "@oval4d/protocol";
 
-/** The angle in radians by which each plane turns; the plane "xw" turns the +x axis toward the +w axis. */
+/**
+ * The angles, in radians, by which to turn in planes. A positive angle in "xw" turns the +x axis toward the +w axis.
+ */
 export type AnglesByPlane = Partial<Record<Plane, number>>;
 
 /**
@@ -13,9 +15,9 @@ export type AnglesByPlane = Partial<Record<Plane, number>>;
  */
 export type RollingBallKind = "4-D" | "3-D";
 
-const kWheelTurn = 0.0015; // radians per pixel of the wheel
-const kStickRate = Math.PI / 2; // radians per second with a stick or trigger at its end
-const kStickDeadZone = 0.15; // smaller deflections, as fractions of the greatest, count as 0
+const kWheelTurn = 0.0015; // radians of rotation per pixel by which the wheel scrolls
+const kStickRate = Math.PI / 2; // radians of rotation per second while a stick or trigger is at its end
+const kStickDeadZone = 0.15; // deflections of sticks and triggers below this fraction of the greatest one count as 0
 
 /**
  * The angles for a drag of `dx` pixels to the right and `dy` down. A drag over `height`, the height of the picture,
@@ -27,16 +29,16 @@ export function turnsOfDrag(ball: RollingBallKind, dx: number, dy: number, heigh
 }
 
 /**
- * The angle for a movement of the mouse wheel by `pixels`. Drags do not use its plane: it is zw for the 4-D ball and xy
- * for the 3-D ball.
+ * The angle for a movement of the mouse wheel by `pixels`. The wheel turns in the plane in which drags cannot roll the
+ * ball: zw for the 4-D ball, xy for the 3-D ball.
  */
 export function turnsOfWheel(ball: RollingBallKind, pixels: number): AnglesByPlane {
     return ball === "4-D" ? { zw: -pixels * kWheelTurn } : { xy: -pixels * kWheelTurn };
 }
 
 /**
- * The angle for fingers that twist clockwise by `angle` radians. Drags do not use its plane: it is zw for the 4-D ball
- * and xy for the 3-D ball, which follows the fingers.
+ * The angle for fingers that twist clockwise by `angle` radians. A twist turns in the plane in which drags cannot roll
+ * the ball: zw for the 4-D ball, xy for the 3-D ball. The 3-D ball follows the fingers.
  */
 export function turnsOfTwist(ball: RollingBallKind, angle: number): AnglesByPlane {
     return ball === "4-D" ? { zw: angle } : { xy: -angle };

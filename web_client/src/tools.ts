@@ -46,7 +46,7 @@ const kHoldInterval = 60; // milliseconds between repetitions
 
 /**
  * For each action that switches something, a function that tells whether it is on. An action that switches a view or a
- * part of the picture has its name, such as "matrix" or "faces".
+ * part of the picture has the name of the view or part, such as "matrix" or "faces".
  */
 const kToggles: Record<string, (state: State) => boolean> = {
     turn: (state) => state.turning,
@@ -74,7 +74,8 @@ const kLabels: Record<string, string> = {
 const kFocusOrder =
     "focus_first vertex_previous focus_left focus_zero focus_right vertex_next focus_last".split(" ");
 
-const kRotationColumns: Plane[] = ["xy", "xz", "xw"]; // below each: the perpendicular plane
+// The planes in the first row of steppers; below each is its perpendicular plane.
+const kRotationColumns: Plane[] = ["xy", "xz", "xw"];
 
 export class ToolsPanel {
     private readonly root = byId("tools");

@@ -20,14 +20,15 @@ namespace oval4d::exports {
 
 namespace {
 
+// Lengths are in units of the drawing.
 constexpr double kAmplitude = 40;          // length of the line for a coordinate equal to the circumradius
 constexpr double kMaxColumn = 48;          // maximum width of the column of a vertex
 constexpr double kMinColumn = 5;           // minimum width of the column of a vertex
 constexpr double kText = 7;                // font size
-constexpr double kNameRoom = 3.2 * kText;  // width that the label of a vertex needs
+constexpr double kNameRoom = 3.2 * kText;  // least distance between the labels of vertices
 constexpr double kBandOpacity = 0.35;      // opacity of the bands behind the lines of highlighted vertices
 
-/// Returns the approximate width of a line of text, from the mean width of characters.
+/// Returns the approximate width of a line of text in the font size kText, from the mean width of characters.
 double estimatedWidth(const std::string& text) {
     constexpr double kCharacter = 0.6;  // mean width of a character, as a fraction of the font size
     return kCharacter * kText * static_cast<double>(text.size());
@@ -37,7 +38,7 @@ double estimatedWidth(const std::string& text) {
 /// Columns are arranged in rows.
 struct ParallelCoordinatesColumnLayout {
     std::size_t count, perRow, rows;
-    double step, rowStep;    ///< distance from a column to the next, and from a row to the next
+    double step, rowStep;    ///< distance from each column to the next, and from each row to the next
     std::size_t namedEvery;  ///< distance, in columns, from one label (P0, …) to the next in a row
 
     explicit ParallelCoordinatesColumnLayout(std::size_t vertices) : count(vertices) {

@@ -28,7 +28,7 @@ struct LineSegment {
     scene::Color color = 0;
     bool roundEnds = false;
     double opacity = 1;   ///< from 0 (invisible) to 1
-    std::string id = {};  ///< id of the line in an SVG file; may be empty
+    std::string id = {};  ///< id of the line in an SVG file; empty for a line without an id
 };
 /// A polyline with at least two points, and with round ends and corners.
 struct Polyline {
@@ -62,7 +62,7 @@ struct TextLine {
 struct OpacityImage {
     glm::dvec2 topLeft, bottomRight;
     std::vector<std::uint8_t> alphas;  ///< opacities from 0 to 255, row by row from the top
-    int columns = 1;                   ///< at least 2; rows() is at least 2, too
+    int columns = 1;                   ///< number of pixels in a row; must be at least 2, like rows()
     std::vector<scene::Color> colors;  ///< at least one color; the colors are spaced evenly from the first column to
                                        ///< the last, and interpolated in between
 

@@ -83,8 +83,7 @@ class PlanarSectionDrawer {
                                                   .roundEnds = true,
                                                   .opacity = opacity});
         }
-        const bool isCloud = !from.ballScale.empty();  // the points of a point cloud have radii and opacities of their
-                                                       // own
+        const bool isCloud = !from.ballScale.empty();  // only the points of point clouds have their own radii
         for (std::size_t i = 0; i < from.points.size(); ++i) {
             const double opacity = slicing::opacityOf(styles.points[i]) * (isCloud ? from.ballOpacity[i] : 1);
             if (opacity == 0) continue;

@@ -32,13 +32,14 @@ scene::Color mixColors(scene::Color a, scene::Color b, double t) {
     return mixed;
 }
 
-// The width of lines, as a fraction of the width of bars in pictures.
+// The width of the lines that show bars, as a fraction of the width of the same bars in pictures.
 constexpr double kThickness = 0.8;
 
 class ProjectionDrawer {
   public:
     explicit ProjectionDrawer(const scene::Scene& scene) : scene_(scene), view_(glm::dmat3(scene.camera.view())) {
-        // The projection lies in a sphere with the radius ProjectionPlacement::radius, in world units.
+        // The projection lies in a sphere with the radius ProjectionPlacement::radius, in world units. The sphere fills
+        // the drawing, except for the margins.
         scale_ = (kDrawingWidth / 2 - kDrawingMargin) / scene.projectionPlacement.radius;
     }
 
@@ -107,8 +108,8 @@ class ProjectionDrawer {
             }
             return;
         }
-        // A face with one loop, such as a star, is drawn as this loop, because this fills the same region as its
-        // pieces, without seams between them. Only faces with several loops are drawn in pieces.
+        // A face with one loop, such as a star, is drawn as this loop: the loop fills the same region as the pieces of
+        // the face, but without seams between them. Only faces with several loops are drawn in pieces.
         const slicing::FilledFaces& fill = projection.fill;
         for (std::uint32_t f = fill.faceBegin[part]; f < fill.faceBegin[part + 1]; ++f) {
             const slicing::FilledFaces::FilledFace& face = fill.faces[f];

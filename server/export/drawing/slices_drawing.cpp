@@ -29,7 +29,7 @@ using slicing::SliceSet;
 // The least distance in front of the eye, in world units, at which shapes are drawn.
 constexpr double kNearest = 1e-3;
 constexpr double kDigitHeight = 0.73;            // height of a digit, as a fraction of the font size
-constexpr std::size_t kTypicalShapeBytes = 150;  // approximate size of a shape in a file
+constexpr std::size_t kTypicalShapeBytes = 150;  // approximate size of a shape in a file, in bytes
 
 /// Returns the label with hyphens in place of minus signs (U+2212), because texts in drawings must be ASCII.
 std::string withAsciiMinus(const std::string& label) {
@@ -40,7 +40,7 @@ std::string withAsciiMinus(const std::string& label) {
     return text;
 }
 
-/// A map from points in view space to positions in the drawing.
+/// A map from points in view space (coordinates relative to the camera) to positions in the drawing.
 class PaperProjection {
   public:
     explicit PaperProjection(const scene::Scene& scene)
@@ -196,14 +196,15 @@ class SliceDrawer {
         }
     }
 
-    /// Returns the layer of a bar or ball. `toward` says whether the bar or ball belongs to a face that is turned
+    /// Returns the layer of a bar or ball. `toward` says whether the edge or vertex belongs to a face that is turned
     /// toward the eye.
     Layer barOrBallLayer(bool toward) const {
         if (scene_.needsDepthBuffer) return away_faces;
         return toward ? toward_frame : away_frame;
     }
 
-    /// Returns, for each vertex of the slice, whether the round end of a bar is drawn there instead of a ball.
+    /// Returns, for each vertex of the slice, whether the round end of a bar takes the place of its ball, because balls
+    /// are not shown.
     std::vector<bool> findRoundEnds() const {
         std::vector<bool> found(points_.size(), false);
         if (scene_.look.parts.balls) return found;
@@ -298,7 +299,7 @@ ShapeGroup drawAxes(const scene::Scene& scene, const PaperProjection& paper) {
         axes.shapes.emplace_back(LineSegment{
             .from = center, .to = place(direction), .width = kWidth * length, .color = color, .roundEnds = true});
         axes.shapes.emplace_back(Disk{place(direction), kTip * length, color});
-        // If the axis points at the viewer, its name would cover the center, so place the name beside the axis.
+        // If the axis points at the viewer or away, its name would cover the center, so place the name beside the axis.
         glm::dvec2 name = kNameAt * direction;
         if (glm::length(name) < 0.3) name = {0.3, -0.3};
         axes.shapes.emplace_back(

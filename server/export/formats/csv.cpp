@@ -22,7 +22,8 @@ namespace oval4d::exports {
 
 namespace {
 
-// Appends the row of slice i. `origin` is ObjectInfo::originInFile, and is added to w and to the centroid.
+// Appends the row of slice i of an object that is not a field. `origin` is ObjectInfo::originInFile, and is added to w
+// and to the centroid.
 void appendSlice(std::string& out, const slicing::SliceSet& slices, const glm::dvec4& origin, int i) {
     const SliceMeasurements m = measureSlice(slices, i);
     out += std::to_string(slices.planes.first + i) + ',';
@@ -79,8 +80,9 @@ std::string unitOfW(const scene::Scene& scene) {
     return unit.isToScale ? unit.text : std::string();
 }
 
-/// The column for a coordinate in the field's box that all points of a slice have in common: "box_w" for the axis w. A
-/// table has this column only if there is such a coordinate, and if it does not always equal the slice's w.
+/// The column for a coordinate in the field's box that all points of a slice have in common, such as x after a rotation
+/// by 90° in xw. The column is called "box_x", "box_y", "box_z" or "box_w". A table has this column only if there is
+/// such a coordinate, and if it does not always equal the slice's w.
 class ConstantSliceCoordinateColumn {
   public:
     ConstantSliceCoordinateColumn(const fields::Field& field, const SceneToWrite& source)
@@ -159,7 +161,7 @@ std::string criticalCsv(const SceneToWrite& source) {
     return out;
 }
 
-// Returns a table of the values of w at which the body of a level changes its topology.
+// Returns a table of the values of w at which the section of a body, bounded by a level, changes its topology.
 std::string fieldCriticalCsv(const SceneToWrite& source) {
     const slicing::FieldSettings& settings = source.scene.look.field;
     slicing::CriticalSearchLimits limits{.stop = source.budget.stopToken()};

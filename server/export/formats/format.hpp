@@ -17,8 +17,8 @@
 
 namespace oval4d::exports {
 
-/// The input of the writers of mesh formats (STL, PLY, …). PlacedMesh::at is the final position of each mesh in the
-/// file (see arrangement.hpp).
+/// The input of the writers of mesh formats (STL, PLY, …). PlacedMesh::at is the position in the file to which each
+/// mesh must be moved (see arrangement.hpp).
 struct MeshesToWrite {
     std::span<const PlacedMesh> solids;
     std::span<const scene::Color> cellColors;  ///< the color of each cell of the object
@@ -33,7 +33,7 @@ struct MeshesToWrite {
         const std::uint32_t cell = solid.mesh.cells[triangle];
         return cell < cellColors.size() ? cellColors[cell] : solid.color;
     }
-    /// Returns whether any mesh has colors for its points (Mesh::pointColors).
+    /// Returns whether at least one mesh has a color for each point (Mesh::pointColors).
     bool anyHasPointColors() const {
         return std::ranges::any_of(solids, [](const PlacedMesh& solid) { return !solid.mesh.pointColors.empty(); });
     }
@@ -69,7 +69,7 @@ struct Format {
     std::vector<ExportContentsKind> contents;  ///< the contents that a file can have; the first is the default
     /// Whether writeScene writes surfaces of a field: those in SliceSet::surfaces, or exact surfaces.
     bool readsSurfaces = false;
-    /// Whether writeBodies keeps coordinates that only 64-bit floats can represent.
+    /// Whether writeBodies can write coordinates without rounding them to 32-bit floats.
     bool keepsDoubles = false;
     /// Whether writeScene gets the scene of the picture, with its view, camera, visible parts, highlight and
     /// background. If false, writeScene gets a scene with the default look, and with the colors, levels and fog of the

@@ -25,7 +25,7 @@ float srgbToLinear(unsigned channel) {
     return static_cast<float>(c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4));
 }
 
-/// The values of a vertex attribute. A value has three 32-bit floats.
+/// The values of a vertex attribute: positions, normals or colors. A value has three 32-bit floats.
 class VertexAttribute {
   public:
     void add(const glm::vec3& value) {
@@ -34,8 +34,9 @@ class VertexAttribute {
         most_ = glm::max(most_, value);
         ++count_;
     }
-    /// Appends the values to the only buffer of `model`. Returns the index of their accessor. If `bounded`, the
-    /// accessor states the minimum and the maximum of the values, as glTF requires for positions.
+    /// Appends the values to the only buffer of `model`, and an accessor (the description of the values in glTF) to
+    /// `model`. Returns the index of the accessor. If `bounded`, the accessor states the minimum and the maximum of the
+    /// values, as glTF requires for positions.
     int appendTo(tinygltf::Model& model, bool bounded) const {
         std::vector<unsigned char>& data = model.buffers.front().data;
         tinygltf::BufferView view;
@@ -70,8 +71,8 @@ glm::vec3 srgbToLinearColor(scene::Color color) {
     return {srgbToLinear(color >> 16U & 0xffU), srgbToLinear(color >> 8U & 0xffU), srgbToLinear(color & 0xffU)};
 }
 
-/// Adds a body to the model. Each triangle has vertices of its own, because its corners have normals and colors of
-/// their own.
+/// Adds a body to `model`. Triangles do not share vertices, because the normal and the color at a corner may differ
+/// from triangle to triangle.
 void addMesh(const PlacedMesh& solid, const MeshesToWrite& meshes, tinygltf::Model& model) {
     VertexAttribute positions;
     VertexAttribute normals;

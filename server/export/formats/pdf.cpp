@@ -33,8 +33,8 @@ void recordError(HPDF_STATUS error, HPDF_STATUS /*detail*/, void* first) {
 
 float colorChannel(scene::Color color, int shift) { return static_cast<float>(color >> shift & 255U) / 255; }
 
-// The bound at which shapes are cut, in units of the drawing. libharu writes numbers beyond ±32,767 as ±32,767, which
-// would change the direction of lines that extend far beyond the page. Lines of slices close to the eye extend so far.
+// The absolute coordinate at which shapes are cut, in units of the drawing. libharu writes numbers beyond ±32,767 as
+// ±32,767, which would change the direction of longer lines. Lines of slices close to the eye extend so far.
 constexpr double kFarthest = 30'000;
 
 // A visitor that draws shapes on a page. Positions in PDF count from the lower left corner.
@@ -120,8 +120,8 @@ class PdfPageWriter {
         HPDF_Page_SetRGBFill(page_, colorChannel(color, 16), colorChannel(color, 8), colorChannel(color, 0));
     }
 
-    // Sets the opacity of the next shapes. In PDF, the opacity is a parameter of a graphics state. All shapes with the
-    // same opacity, in percent, share a state.
+    // Sets the opacity of the next shapes, rounded to percent. In PDF, the opacity is a parameter of a graphics state.
+    // All shapes with the same opacity share a state.
     void setOpacity(double opacity) {
         const int percent = static_cast<int>(std::lround(100 * std::clamp(opacity, 0.0, 1.0)));
         if (percent == percent_) return;

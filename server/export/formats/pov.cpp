@@ -56,7 +56,7 @@ std::string povChannels(scene::Color color) {
     return out;
 }
 
-/// Returns a text as a string literal. Minus signs become hyphens, because the fonts of POV-Ray lack minus signs.
+/// Returns a text as a string literal of POV-Ray. Minus signs become hyphens, because the fonts of POV-Ray lack them.
 std::string povString(std::string_view text) {
     constexpr std::string_view kMinus = "\u2212";
     std::string out = "\"";
@@ -97,7 +97,7 @@ struct PovMesh {
     std::vector<glm::vec3> points, normals;
     std::vector<std::array<std::uint32_t, 3>> triangles;
     std::vector<std::array<std::uint32_t, 3>> textures;  ///< for each triangle: the texture numbers of its corners
-    /// Whether light from behind lights triangles like light from the front, as it lights faces in pictures.
+    /// Whether light from behind makes triangles as bright as light from the front, like faces in pictures.
     bool isLitFromBehind = false;
 
     void add(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t texture) {

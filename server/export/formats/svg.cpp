@@ -41,7 +41,8 @@ std::string opacityAttribute(std::string_view name, double opacity) {
 }
 
 /// Returns the opacities of an image (OpacityImage::alphas) as SVG paths. Opacities are rounded to multiples of
-/// 1/kTones. For each opacity except 0, there is a path with the outlines of all pixels of this opacity.
+/// 1/kTones. For each opacity except 0, there is a path of rectangles, which cover all pixels of this opacity. A pixel
+/// is a unit square.
 std::string densityPaths(const OpacityImage& density) {
     constexpr int kTones = 32;
     const auto toneAt = [&](int row, int column) { return (density.alpha(row, column) * kTones + 127) / 255; };

@@ -10,7 +10,7 @@
 
 namespace oval4d::exports {
 
-/// Appends the shortest decimal text from which exactly this number is read back.
+/// Appends the shortest decimal text from which exactly this number is read back, such as "0.1" or "1e+30".
 void appendDecimal(std::string& out, double number);
 void appendDecimal(std::string& out, float number);
 /// Appends the three coordinates, separated by spaces.
@@ -20,12 +20,13 @@ void appendDecimal(std::string& out, const glm::dvec3& point);
 /// distinguish the hyperplanes. `origin` is the w of ObjectInfo::originInFile, and is added to w.
 std::string labelOfW(const geometry::Hyperplanes& planes, int i, double origin = 0);
 
-/// Returns the text without the characters that XML 1.0 forbids (section 2.2): control characters below U+0020, U+FFFE
-/// and U+FFFF. Also removes tabs and line ends, so that the result is one line in any text format. The text must be
-/// UTF-8.
+/// Returns the UTF-8 text without the characters that XML 1.0 forbids (section 2.2): control characters below U+0020,
+/// U+FFFE and U+FFFF. Also removes tabs and line ends, which XML allows, so that the result is one line in any text
+/// format.
 std::string removeNonXmlCharacters(std::string_view text);
 
-/// Returns onlyXmlCharacters(text) escaped for XML content and attributes: &, <, > and quotes become entities.
+/// Returns the result of removeNonXmlCharacters(), escaped for XML content and attributes: &, <, > and quotes become
+/// entities.
 std::string xmlEscaped(std::string_view text);
 
 }  // namespace oval4d::exports

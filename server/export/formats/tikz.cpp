@@ -20,7 +20,8 @@ namespace oval4d::exports {
 
 namespace {
 
-// Lengths in TeX are less than 16,384 points (The TeXbook, chapter 10).
+// The absolute coordinate at which shapes are cut, in points. Lengths in TeX are less than 16,384 points (The TeXbook,
+// chapter 10).
 constexpr double kFarthestPoints = 16'000, kPointsPerMillimeter = 72.27 / 25.4;
 
 // Returns a number with at most `count` decimals.
@@ -64,7 +65,7 @@ std::string latexEscaped(std::string_view text) {
 /// A visitor that writes shapes as TikZ commands and collects their colors.
 class TikzCommandWriter {
   public:
-    /// `unit` is the result of Drawing::millimetersPerUnit().
+    /// `unit` is Drawing::millimetersPerUnit() of the drawing whose shapes are written.
     explicit TikzCommandWriter(double unit) : unit_(unit) {}
 
     void operator()(const LineSegment& line) {
@@ -129,7 +130,7 @@ class TikzCommandWriter {
     std::string out;  ///< the TikZ commands
 
   private:
-    // Adds point i of a path. Several points share a line of the file.
+    // Appends point i of a path, counted from 0. Each line of the file has at most kPointsPerLine points.
     void appendPathPoint(const glm::dvec2& point, std::size_t i) {
         constexpr std::size_t kPointsPerLine = 6;
         out += i > 0 && i % kPointsPerLine == 0 ? '\n' : ' ';

@@ -19,7 +19,8 @@ namespace oval4d::exports {
 
 namespace {
 
-/// A regular lattice in a slice: the points origin + spacing · (i, j, k).
+/// A regular lattice in a slice: the points origin + spacing · (i, j, k), with products by axis. Along each axis, the
+/// indices run from 0 to `points` − 1.
 struct SliceLattice {
     glm::dvec3 origin{0}, spacing{1};
     glm::ivec3 points{1};
@@ -27,7 +28,7 @@ struct SliceLattice {
     std::size_t size() const { return static_cast<std::size_t>(points.x) * points.y * points.z; }
 };
 
-/// Returns a lattice that fills the bounding box of the slice of the field's domain. Neighboring points are at most
+/// Returns a lattice that fills the bounding box of slice 0, which must not be empty. Neighboring points are at most
 /// `step` apart along each axis.
 SliceLattice latticeOf(const slicing::SliceSet& slices, double step) {
     glm::dvec3 low = slices.vertices.front(), high = low;

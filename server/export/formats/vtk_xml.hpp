@@ -20,13 +20,13 @@ namespace oval4d::exports {
 std::string vtkFile(std::string_view type, std::string_view attributes, std::string_view elements);
 
 /// Appends a DataArray element that contains `bytes` in Base64. `bytes` must be little-endian numbers of the type
-/// `type`, such as "Float32". `components` is the number of numbers in a tuple. `quantity` is what the numbers measure,
+/// `type`, such as "Float32". Each tuple of the array has `components` numbers. `quantity` is what the numbers measure,
 /// as far as known: the name of the quantity becomes the name of the first component, and its unit becomes the
 /// information key vtkDataArray::UNITS_LABEL.
 void appendVtkArray(std::string& out, std::string_view type, std::string_view name, int components,
                     std::string_view bytes, const fields::Quantity& quantity = {});
 
-/// Appends a DataArray element with the given numbers. A tuple has `components` numbers.
+/// Appends a DataArray element that contains `numbers`. `components` and `quantity` are as in the function above.
 template <typename Number>
 void appendVtkArray(std::string& out, std::string_view name, int components, std::span<const Number> numbers,
                     const fields::Quantity& quantity = {}) {

@@ -41,7 +41,8 @@ struct PolyData {
     std::vector<double> points;                       // x, y and z of each point
     std::vector<float> normals;                       // x, y and z of the normal at each point
     std::vector<float> values, secondValues, growth;  // secondValues is empty without a second function
-    // `corners` has the point index of each corner. `ends` has, for each element, the end of its corners in `corners`.
+    // `corners` has the point index of each corner. `ends` has, for each element, the index after its last corner in
+    // `corners`.
     std::vector<std::int64_t> corners, ends;
     std::vector<std::int32_t> n, cell;  // `cell` is empty unless the elements are faces
     std::vector<double> w, level;
@@ -109,10 +110,10 @@ std::int64_t addPoints(const FieldSliceSurface& exported, const glm::dvec3& plac
     return first;
 }
 
-/// Adds a second copy of each point of a cap. The second copy has the mean normal of the caps at the point; the first
-/// copy, from addPoints(), has the normal of the level set. `first` is the index in the file of the surface's first
-/// point. Returns, for each point of the surface, the index in the file of its second copy, or −1 if the point is in no
-/// cap.
+/// Adds a second copy of each point of a cap. The second copy has the mean normal of the cap triangles at the point;
+/// the first copy, from addPoints(), has the normal of the level set. `first` is the index in the file of the surface's
+/// first point. Returns, for each point of the surface, the index in the file of its second copy, or −1 if the point is
+/// in no cap.
 std::vector<std::int64_t> addCapPoints(const slicing::SliceSurface& surface, std::int64_t first, PolyData& out) {
     std::vector<std::int64_t> copies(surface.points.size(), -1);
     for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
@@ -168,8 +169,8 @@ void appendArray(std::string& out, std::string_view name, const std::vector<Numb
     appendVtkArray(out, name, components, std::span<const Number>(numbers), quantity);
 }
 
-// Returns the XML element Piece with all of `data`. `field` is null if the object is not a field. `units` are the units
-// of the axes. `asDoubles` says whether coordinates are written as 64-bit floats.
+// Returns the XML element Piece with all arrays of `data`. `field` is null if the object is not a field. `units` are
+// the units of the axes. `asDoubles` says whether coordinates are written as 64-bit floats, otherwise as 32-bit floats.
 std::string pieceElement(const PolyData& data, const fields::Field* field, const fields::PictureUnits& units,
                          bool asDoubles) {
     const auto countOf = [&](ListedElementKind elements) {

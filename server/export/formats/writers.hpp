@@ -10,7 +10,7 @@
 
 namespace oval4d::exports {
 
-// --- Formats of bodies. Each writer throws ExportRefused if the time limit is exceeded or a stop was requested.
+// --- Writers of mesh formats. Each of them throws ExportRefused if the time limit is exceeded or a stop was requested.
 
 /// Returns a binary glTF 2.0 file in meters. It has a node for each body, and vertex colors. On surfaces of fields,
 /// normals vary smoothly, except across sharp edges (see smoothNormals()). Throws std::runtime_error if the library
@@ -109,8 +109,8 @@ std::string tikz(const Drawing& drawing);
 
 // --- The table of writers
 
-/// The name of a format, and its writer: a function of bodies, a scene or a drawing. The other two functions are null.
-/// `readsSurfaces`, `showsPicture` and `keepsDoubles` mean the same as in Format.
+/// The name of a format, and its writer: one of the three functions, `ofBodies`, `ofScene` or `ofDrawing`. The other
+/// two are null. `readsSurfaces`, `showsPicture` and `keepsDoubles` mean the same as in Format.
 struct FormatWriterRow {
     std::string_view name;
     std::string (*ofBodies)(const MeshesToWrite&) = nullptr;

@@ -37,8 +37,8 @@ struct TextPlacement {
     double height = 0, depth = 0;
 };
 
-/// Returns the faces of the mesh, by their cells. Leaves out faces without area, faces with holes, and faces in several
-/// parts.
+/// Returns the faces of the mesh. The key of a face is its cell. Leaves out faces without area, faces with holes, and
+/// faces in several parts.
 std::map<std::uint32_t, BodyFace> facesOf(const Mesh& mesh) {
     std::map<std::uint32_t, BodyFace> faces;
     std::map<std::uint32_t, std::map<std::pair<std::uint32_t, std::uint32_t>, int>> edges;
@@ -69,9 +69,9 @@ std::map<std::uint32_t, BodyFace> facesOf(const Mesh& mesh) {
     return faces;
 }
 
-/// Returns the place in the middle of `face` that allows the largest letters with a free margin. The text runs along
-/// `right`; if letters would be upside down, in the opposite direction. The caller must set `cell` and `depth` of the
-/// result.
+/// Returns a place with the text in the middle of `face`, in the largest size that leaves a margin of kMargin. The text
+/// runs along `right` or, if the letters would then be upside down, in the opposite direction. The caller must set
+/// `cell` and `depth` of the result.
 TextPlacement fitText(const Mesh& mesh, const BodyFace& face, const glm::dvec3& right, const TextOutlines& text) {
     TextPlacement placement{kNoCell, &text, face.middle, right, glm::cross(face.normal, right), face.normal, 1e300, 0};
     if (placement.up.z < -1e-9 || (std::abs(placement.up.z) < 1e-9 && placement.up.y < 0)) {
@@ -91,8 +91,9 @@ TextPlacement fitText(const Mesh& mesh, const BodyFace& face, const glm::dvec3& 
     return placement;
 }
 
-/// Returns the depth of letters, the least of three numbers: kMaxDepth, a quarter of the letters' height, and half the
-/// depth at which the rectangle around the text would meet another face, if moved into the body.
+/// Returns the depth of letters, the least of three lengths: kMaxDepth; a quarter of the letters' height; and half the
+/// distance by which the rectangle around the text can be moved into the body before it meets the plane of another
+/// face.
 double depthAt(const TextPlacement& placement, const std::map<std::uint32_t, BodyFace>& faces, const Mesh& mesh) {
     double depth = kMaxDepth;
     const glm::dvec2 half = (placement.text->size / 2.0 + kMargin / 2) * placement.height;
@@ -107,7 +108,9 @@ double depthAt(const TextPlacement& placement, const std::map<std::uint32_t, Bod
     return std::min(depth, placement.height / 4);
 }
 
-/// Returns whether the mesh is convex and consists of exactly these faces, none of which has a hole.
+/// Returns whether the mesh is convex and consists of exactly these faces, none of which has a hole. Points may lie up
+/// to four grid steps outside the plane of a face. Throws ExportRefused if the time limit is exceeded or a stop was
+/// requested.
 bool isConvex(const Mesh& mesh, const std::map<std::uint32_t, BodyFace>& faces, const RoundingGrid& grid,
               const ExportBudget& budget) {
     std::size_t triangles = 0;
@@ -121,8 +124,8 @@ bool isConvex(const Mesh& mesh, const std::map<std::uint32_t, BodyFace>& faces, 
     return triangles == mesh.triangles.size();
 }
 
-/// Engraves the text: cuts holes for letters into the face, and adds the walls and floors of the letters. Returns false
-/// and leaves the mesh unchanged if the result would not be a closed manifold.
+/// Engraves the text into a face of `mesh`: cuts holes for letters into the face, and adds the walls and floors of the
+/// letters. Returns false and leaves the mesh unchanged if the result would not be a closed manifold.
 bool engraveText(Mesh& mesh, const BodyFace& face, const TextPlacement& placement, const RoundingGrid& grid) {
     const auto flat = [&](const glm::dvec3& p) {
         return glm::dvec2(glm::dot(p - placement.middle, placement.right),
@@ -130,9 +133,9 @@ bool engraveText(Mesh& mesh, const BodyFace& face, const TextPlacement& placemen
     };
     std::vector<Contour> holed(1);
     std::vector<Contour> letters;
-    std::vector<std::uint32_t> boundary = face.loop;  // mesh points of the corners of `holed`
-    std::vector<std::uint32_t> bottoms;               // mesh points below the corners of `letters`
-    std::vector<std::uint32_t> tops;                  // mesh points at the corners of `letters`
+    std::vector<std::uint32_t> boundary = face.loop;  // for each corner of `holed`: the mesh point there
+    std::vector<std::uint32_t> bottoms;               // for each corner of `letters`: the mesh point below it
+    std::vector<std::uint32_t> tops;                  // for each corner of `letters`: the mesh point there
     for (const std::uint32_t p : face.loop) holed[0].push_back(flat(mesh.points[p]));
     Mesh result = mesh;
     for (const Contour& outline : placement.text->contours) {
@@ -220,7 +223,8 @@ Mesh LabelText::makeLabelPlate(double size, const RoundingGrid& grid) const {
         }
     }
     Mesh mesh = convexHullOfGridPoints(corners, grid);
-    // Number the faces of the box: 2 · axis, plus 1 for the side in the positive direction. So face 5 is the top.
+    // Number the faces of the box: the two faces across an axis get 2 · axis and, on the positive side, 2 · axis + 1.
+    // So face 5 is the top.
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
         const glm::dvec3 normal = doubleAreaNormalOf(mesh, mesh.triangles[t]);
         for (std::uint32_t axis = 0; axis < 3; ++axis) {

@@ -22,8 +22,8 @@ class LabelText {
     /// Engraves the text into a convex body, on the face where the letters can be largest. Triangles with the same
     /// entry in `mesh.cells` form a face. Letters are at most size / 10 high, and from 0.25 to 0.8 mm deep. `size` is
     /// ExportRequest::size, in millimeters. Returns false and leaves the mesh unchanged if the body is not convex or is
-    /// too thin, or if the letters would be less than 1 mm high. Takes quadratic time in the number of faces; throws
-    /// ExportRefused as ExportBudget::checkTimeAndStop() does.
+    /// too thin, or if the letters would be less than 1 mm high. Throws ExportRefused if the time limit is exceeded or
+    /// a stop was requested: the time is quadratic in the number of faces.
     bool engrave(Mesh& mesh, double size, const RoundingGrid& grid, const ExportBudget& budget) const;
 
     /// Returns a plate with the text engraved into its top side. Letters are size / 15 high, but at least 3 and at most

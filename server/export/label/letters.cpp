@@ -18,7 +18,8 @@ namespace {
 constexpr double kLineStep = 1.7;  // distance between baselines, in heights of a capital letter
 constexpr int kPieces = 4;         // number of line segments per curve
 
-// A converter from lines of text to contours, with FreeType. The unit is the height of a capital letter.
+// A converter from lines of text to the contours of their letters, with FreeType. Lengths are in heights of a capital
+// letter.
 class TextOutliner {
   public:
     TextOutliner() {
@@ -39,7 +40,8 @@ class TextOutliner {
     TextOutliner(const TextOutliner&) = delete;
     TextOutliner& operator=(const TextOutliner&) = delete;
 
-    /// Appends the contours of a line of text. The baseline starts at (0, y). Returns the length of the line.
+    /// Appends the contours of a line of text to `out`. The baseline starts at (0, y). Returns the length of the line.
+    /// Leaves out characters that FreeType cannot load.
     double outlineText(const std::string& text, double y, std::vector<Contour>& out) {
         origin_ = {0, y};
         out_ = &out;

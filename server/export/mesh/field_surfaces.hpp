@@ -22,16 +22,16 @@ namespace oval4d::exports {
 /// The surface (of all levels) in one slice of a field.
 struct FieldSliceSurface {
     const slicing::SliceSurface& surface;
-    std::span<const glm::dvec3> exactPoints;  ///< unrounded points of `surface`; empty if unknown
+    std::span<const glm::dvec3> exactPoints;  ///< points of `surface` as 64-bit floats; empty if they are unknown
 
     glm::dvec3 point(std::size_t i) const {
         return exactPoints.empty() ? glm::dvec3(surface.points[i]) : exactPoints[i];
     }
 };
 
-/// A source of the surfaces in the slices of a field, one after another. The surfaces are those of a scene, or exact
-/// surfaces, which are made when they are needed (see ExactFieldSlicer). The normal and the growth at a point of an
-/// exact surface are means over the triangles around the point.
+/// A source of the surfaces in the slices of a field. The surfaces are those of a scene, or exact surfaces, which are
+/// made when they are needed (see ExactFieldSlicer). The normal and the growth at a point of an exact surface are
+/// computed from the gradient there.
 class FieldSurfaceSource {
   public:
     /// The slices of `scene` must have been cut from `field` rotated by `orientation`. If `exact` is false, they must
@@ -39,7 +39,7 @@ class FieldSurfaceSource {
     /// FieldSettings::levels; otherwise, `levels` is ignored. `scene`, `field` and `budget` must outlive this object.
     FieldSurfaceSource(const scene::Scene& scene, const fields::Field& field, const geometry::Rotation& orientation,
                        bool exact, std::vector<std::size_t> levels, const ExportBudget& budget);
-    /// Does the same for all levels of the field.
+    /// Does the same as the constructor above, with all levels of the field.
     FieldSurfaceSource(const scene::Scene& scene, const fields::Field& field, const geometry::Rotation& orientation,
                        bool exact, const ExportBudget& budget);
 

@@ -25,7 +25,7 @@ std::uint32_t triangleOf(std::uint32_t edge) { return edge / 3; }
 std::uint32_t nextHalfEdge(std::uint32_t edge) { return edge % 3 == 2 ? edge - 2 : edge + 1; }
 std::uint32_t previousHalfEdge(std::uint32_t edge) { return edge % 3 == 0 ? edge + 2 : edge - 1; }
 
-/// A hash function for positions of points, in grid steps.
+/// A hash function for points on the grid, whose coordinates are in grid steps.
 struct PositionHash {
     std::size_t operator()(const glm::i64vec3& at) const {
         std::uint64_t hash = 0;
@@ -36,8 +36,8 @@ struct PositionHash {
 };
 using PositionSet = std::unordered_set<glm::i64vec3, PositionHash>;
 
-/// Returns whether a · b = c · d, for whole numbers less than 2⁵³. The exact product is the sum of the rounded product
-/// and the rounding error, which fma() returns exactly.
+/// Returns whether a · b = c · d, exactly, for whole numbers between −2⁵³ and 2⁵³. An exact product is the sum of the
+/// rounded product and its rounding error, which fma() returns exactly.
 bool productsAreEqual(double a, double b, double c, double d) {
     const double first = a * b, second = c * d;
     return first == second && std::fma(a, b, -first) == std::fma(c, d, -second);
@@ -108,7 +108,7 @@ class HalfEdgeMesh {
         }
     }
 
-    /// Moves each point that is equal to an earlier point to a free grid point nearby.
+    /// Moves each point that has the same position as an earlier point to a free grid point nearby.
     void separatePoints() {
         PositionSet taken;
         for (std::uint32_t point = 0; point < at_.size(); ++point) {
@@ -155,7 +155,8 @@ class HalfEdgeMesh {
             const auto [low, high] = std::minmax({origins_[edge], endOf(edge)});
             halfEdges.push_back({std::uint64_t{low} << 32U | high, edge, origins_[edge] == low});
         }
-        // After sorting, half-edges with the same ends are neighbors, and those with the same direction, too.
+        // After sorting, half-edges with the same ends follow one another: first those from the larger index to the
+        // smaller, then those in the opposite direction.
         std::ranges::sort(halfEdges, [](const HalfEdge& a, const HalfEdge& b) {
             return std::tuple(a.ends, a.upward, a.edge) < std::tuple(b.ends, b.upward, b.edge);
         });

@@ -26,7 +26,7 @@ struct SnappedSurface {
 /// - Edges whose ends become equal on the grid are collapsed, unless this would join different parts of the surface
 ///   (the link condition: T. Dey et al., "Topology preserving edge contraction", 1999).
 /// - Triangles whose corners lie on a line are removed by flipping their longest edge, where possible.
-/// - Other points that become equal are moved to free grid points nearby, except one.
+/// - If other points become equal, all but one of them are moved to free grid points nearby.
 /// - Connected parts smaller than 4 grid steps along all axes are removed.
 ///
 /// Throws ExportRefused if the time limit is exceeded or a stop was requested. Throws std::invalid_argument if the

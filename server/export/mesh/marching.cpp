@@ -31,9 +31,9 @@ std::uint64_t pointKey(const glm::ivec3& point) {
 // of the field. `bits` has one bit for each axis: 1 for x, 2 for y, 4 for z.
 glm::ivec3 cornerOffset(unsigned bits) { return {bits & 1U, bits >> 1U & 1U, bits >> 2U & 1U}; }
 
-// The six tetrahedra of a cube. The number of a corner is its bits in offset(). The corners of a tetrahedron lie on a
-// path from corner 0 to corner 7 with one step along each axis. There is one tetrahedron for each order of the axes.
-// The four corners a, b, c, d of a tetrahedron are listed such that ((b − a) × (c − a)) · (d − a) > 0.
+// The six tetrahedra of a cube. The number of a corner is the parameter of cornerOffset(). The corners of a tetrahedron
+// lie on a path from corner 0 to corner 7 with one step along each axis. There is one tetrahedron for each order of the
+// axes. The four corners a, b, c, d of a tetrahedron are listed such that ((b − a) × (c − a)) · (d − a) > 0.
 constexpr std::array<std::array<unsigned, 4>, 6> kTetrahedra{
     {{0, 1, 3, 7}, {0, 5, 1, 7}, {0, 3, 2, 7}, {0, 2, 6, 7}, {0, 4, 5, 7}, {0, 6, 4, 7}}};
 
@@ -127,8 +127,8 @@ class MarchingTetrahedra {
     }
 
     // Returns the index of the mesh point on the edge from the corner `inside` to the corner `outside` of the cube at
-    // `at`. Creates the point at the first call. A corner is a set of bits (see offset()). On every edge of a
-    // tetrahedron, the bits of one end are a subset of the bits of the other end.
+    // `at`. Creates the point at the first call for an edge. A corner is a set of bits (see cornerOffset()). On every
+    // edge of a tetrahedron, the bits of one end are a subset of the bits of the other end.
     std::uint32_t findOrAddVertex(const glm::ivec3& at, unsigned inside, unsigned outside) {
         const glm::ivec3 lower = at + cornerOffset(inside & outside);
         auto& ids = edgePointsOfBlock(lower);
@@ -157,9 +157,9 @@ class MarchingTetrahedra {
     }
 
     using EdgePointIndices = std::array<std::uint32_t, static_cast<std::size_t>(kPoints) * 7>;
-    // Returns the table of mesh points for the block that contains `point`. Each field point of the block has seven
-    // entries, one for each direction of offset(): the index of the mesh point on the edge in this direction, or kNone.
-    // Creates the table at the first call.
+    // Returns the table of mesh points for the block that contains `point`. Each point of the block has seven entries,
+    // one for each direction of an edge (see cornerOffset()): the index of the mesh point on this edge, or kNone.
+    // Creates the table at the first call for a block.
     EdgePointIndices& edgePointsOfBlock(const glm::ivec3& point) {
         const std::uint64_t key = pointKey(point);
         if (last_ == nullptr || lastKey_ != key) {

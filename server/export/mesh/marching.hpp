@@ -65,9 +65,9 @@ class SampledField {
     ValueBlock* last_ = nullptr;  // the block to which a value was written last
 };
 
-/// The point where the surface crosses an edge of a tetrahedron. `fraction` is its position on the edge, from 0 at the
-/// inside end to 1 at the outside end. `cell` is the cell of the object from which the surface was cut at this point,
-/// or kNoCell.
+/// The point where the surface crosses an edge of a tetrahedron. `fraction` is the position of the point on the edge,
+/// from 0 at the inside end to 1 at the outside end. `cell` is the cell of the 4-D object from which the surface was
+/// cut at this point, or kNoCell.
 struct EdgeCrossing {
     double fraction = 0.5;
     std::uint32_t cell = kNoCell;
@@ -75,8 +75,8 @@ struct EdgeCrossing {
 /// A function that finds the crossing on the edge from an inside point to a neighboring outside point.
 using CrossingFinder = std::function<EdgeCrossing(const glm::ivec3& inside, const glm::ivec3& outside)>;
 
-/// Field steps, in steps of the RoundingGrid: the least allowed one, and one that hardly changes shapes (see
-/// marchTetrahedra()).
+/// Two steps of a SampledField, in steps of the RoundingGrid: the least step that marchTetrahedra() allows, and the
+/// step from which rounding hardly changes the shapes of triangles.
 inline constexpr double kLeastFieldStep = 24, kGoodFieldStep = 64;
 
 /// Returns a mesh of the surface that separates inside points from outside points. Rounds the points of the mesh to

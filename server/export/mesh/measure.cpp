@@ -9,8 +9,8 @@ namespace oval4d::exports {
 
 namespace {
 
-// The fraction of e³ up to which a volume, or of e² up to which an area, counts as a rounding error. Here, e is the
-// greatest distance of a vertex of the slice from the mean of the vertices.
+// A volume up to this number times e³, or an area up to this number times e², counts as 0, because it may be a rounding
+// error. Here, e is the greatest distance of a vertex of the slice from the mean of the vertices.
 constexpr double kRoundingError = 1e-12;
 
 struct WeightedMean {
@@ -41,7 +41,7 @@ SliceMeasurements measureSlice(const slicing::SliceSet& slices, int i) {
     for (std::uint32_t f = slices.faceBegin[i]; f < slices.faceBegin[i + 1];) {
         const std::uint32_t cell = slices.faceSource[f];
         glm::dvec3 area(0);
-        // The sum of signed area · centroid over all triangles.
+        // The sum of (signed area · centroid) over the triangles of all loops of the face.
         glm::dvec3 moment(0);
         double signedArea = 0;
         for (; f < slices.faceBegin[i + 1] && slices.faceSource[f] == cell; ++f) {

@@ -17,14 +17,15 @@ RoundingGrid::RoundingGrid(double size, double extent) {
 }
 
 RoundingGrid RoundingGrid::forDoublePrecision(double size, double extent) {
-    // A double has 53 significant bits. So the sum of a point and a position, both on the grid, is exact.
+    // A double has 53 significant bits. With steps of at least extent / 2^50, the sum of two positions on the grid is
+    // exact.
     RoundingGrid grid(size, extent);
     grid.step_ = std::exp2(std::ceil(std::log2(std::max(size * 0x1p-40, extent * 0x1p-50))));
     return grid;
 }
 
 glm::dvec3 RoundingGrid::snap(const glm::dvec3& point) const {
-    // Add 0 to turn −0 into 0, so that equal coordinates have equal texts and bytes in files.
+    // The addition of 0 turns −0 into 0, so that equal coordinates have equal texts and bytes in files.
     return glm::round(point / step_) * step_ + 0.0;
 }
 

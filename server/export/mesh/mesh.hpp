@@ -39,7 +39,7 @@ struct PlacedMesh {
     std::string name;
     Mesh mesh;
     scene::Color color;  ///< color of triangles without a cell, and of points without a color
-    /// The position in the file of the mesh's origin, in millimeters. Lies on the grid.
+    /// The position, in the file, of the origin of the mesh's coordinates, in millimeters. Lies on the RoundingGrid.
     glm::dvec3 at{0};
 };
 
@@ -80,7 +80,7 @@ bool isThickEnough(const Mesh& mesh, const RoundingGrid& grid);
 /// Returns the normal of a triangle of the mesh, with a length of twice the triangle's area.
 glm::dvec3 doubleAreaNormalOf(const Mesh& mesh, const std::array<std::uint32_t, 3>& triangle);
 
-/// Returns a unit normal for each corner of each triangle. The normal is the mean over the triangles around the
+/// Returns a unit normal for each corner of each triangle: the direction of the mean normal of the triangles around the
 /// corner's point, weighted by their areas. Triangles whose normals differ by more than 40° from the normal of the
 /// corner's triangle are left out. The result is 0 for triangles without area.
 std::vector<std::array<glm::dvec3, 3>> smoothNormals(const Mesh& mesh);

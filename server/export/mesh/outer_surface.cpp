@@ -60,9 +60,10 @@ class OuterSurfaceMesher {
     }
 
   private:
-    // A crossing of a line with a triangle. `at` is the position of the crossing on the line. In fill(), this is its x.
-    // In findCrossing(), this is the fraction of the way from the outside point to the inside point. `windingChange` is
-    // the change of the winding number at the crossing.
+    // A crossing of a line with a triangle. `at` is the position of the crossing on the line: in markInterior(), its x;
+    // in findCrossing(), the fraction of the way from the outside point to the inside point. `windingChange` is the
+    // change of the winding number at the crossing, in the direction in which `at` increases. `cell` is the cell of the
+    // triangle.
     struct LineCrossing {
         double at;
         int windingChange;
@@ -129,7 +130,7 @@ class OuterSurfaceMesher {
         }
     }
 
-    /// Divides space into cubic boxes with this width. Lists, for each box, the triangles that may intersect it.
+    /// Divides space into cubic boxes with this width. Sets boxes_: for each box, the triangles that may intersect it.
     void sortIntoBoxes(double width) {
         width_ = width;
         for (std::uint32_t p = 0; p < triangles_.size(); ++p) {
@@ -154,7 +155,7 @@ class OuterSurfaceMesher {
     }
 
     /// Returns the first crossing on the way from `outside` to `inside` at which the winding number becomes nonzero. If
-    /// rounding errors hide all crossings, returns the middle of the way with kNoCell.
+    /// there is none because of rounding errors, returns the middle of the way with kNoCell.
     EdgeCrossing findCrossing(const glm::dvec3& inside, const glm::dvec3& outside) const {
         std::vector<std::uint32_t> near;
         const glm::ivec3 least = boxAt(glm::min(inside, outside));

@@ -13,7 +13,8 @@ namespace oval4d::exports {
 
 namespace {
 
-/// A capsule: a bar with round ends. If both ends are equal, the capsule is a ball.
+/// A capsule: all points within `radius` of the line from `from` to `to`. This is a bar with round ends or, if both
+/// ends are equal, a ball.
 struct Capsule {
     glm::dvec3 from, to;
     double radius;
@@ -27,9 +28,9 @@ struct Capsule {
     }
 };
 
-/// Adds a capsule to a field of distances. At each point near the capsule, the value becomes the distance from the
-/// capsule, if this is less than the old value. Points near the capsule include all corners of each cube with a corner
-/// inside the capsule.
+/// Adds a capsule to a field of distances. At each point near the capsule, the value becomes Capsule::distance(), if
+/// this is less than the old value. Points near the capsule include all corners of each cube with a corner inside the
+/// capsule.
 void addCapsule(const Capsule& capsule, SampledField& field) {
     const double reach = capsule.radius + 1.01 * std::sqrt(3) * field.step();
     const glm::ivec3 least = field.floorIndex(glm::min(capsule.from, capsule.to) - reach);
@@ -105,8 +106,8 @@ double estimateTriangles(const slicing::SliceSet& slices, double scale, const Sk
 
 Mesh skeletonOf(const slicing::SliceSet& slices, int i, double scale, const SkeletonRadii& radii, double cube,
                 const RoundingGrid& grid, const ExportBudget& budget) {
-    // The offset keeps sample points off the symmetry planes of the polytope. On these planes, many samples could be
-    // exactly 0, and triangles with corners there would degenerate.
+    // The offset of the field's origin keeps the points of the field off the symmetry planes of the polytope. On these
+    // planes, many values could be exactly 0, and triangles with corners there would degenerate.
     SampledField field(glm::dvec3(0.371, 0.217, 0.449) * cube, cube);
     for (const Capsule& capsule : capsulesOf(slices, i, scale, radii)) {
         budget.checkTimeAndStop();

@@ -61,7 +61,7 @@ bool isConvex(const slicing::SliceSet& slices, int i, const ExportBudget& budget
     return true;
 }
 
-/// The vertices of a slice, in millimeters and rounded to the grid. Vertices that become equal are one point.
+/// The vertices of a slice, in millimeters and rounded to the grid. Vertices that become equal are merged to one point.
 class WeldedVertices {
   public:
     WeldedVertices(const slicing::SliceSet& slices, int i, double scale, const RoundingGrid& grid) {
@@ -90,8 +90,8 @@ class WeldedVertices {
     std::vector<std::uint32_t> index_;
 };
 
-/// Triangulates a convex loop as a fan from one corner. Chooses the corner that maximizes the area of the smallest
-/// triangle.
+/// Divides a convex loop into a fan of triangles around one corner, and adds them to `mesh` with the cell `cell`.
+/// Chooses the corner for which the area of the smallest triangle is largest.
 void triangulateConvexLoop(const VertexLoop& loop, std::uint32_t cell, Mesh& mesh, const ExportBudget& budget) {
     const std::size_t n = loop.size();
     std::size_t best = 0;

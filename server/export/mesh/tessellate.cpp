@@ -10,16 +10,16 @@ namespace oval4d::exports {
 namespace {
 
 // The data that the callbacks of GLU's tessellator share. (The tessellator needs no OpenGL context.) The tessellator
-// passes pointers to elements of `corners` to the callback `vertex`. tessellate() made these elements or, where
-// contours cross, the callback `combine`.
+// passes pointers to elements of `corners` to the callback vertex(). These elements were made by tessellate() or, where
+// contours cross, by the callback addCrossing().
 struct TessellatorData {
     // The position (x, y, 0) and the index of each corner. The index counts all corners in the order in which
-    // tessellate() passes them to GLU. A corner made by `combine` has the index 0xffffffff. A deque keeps pointers to
-    // its elements valid when elements are appended.
+    // tessellate() passes them to GLU. A corner made by addCrossing() has the index 0xffffffff. A deque keeps pointers
+    // to its elements valid when elements are appended.
     std::deque<std::pair<std::array<double, 3>, std::uint32_t>> corners;
     std::vector<std::uint32_t> out;  // indices of the corners of the output, three for each triangle
     std::vector<Contour> contours;   // polygons of the output, if the outline was requested
-    bool crossed = false;            // whether contours cross, so that `combine` made a corner
+    bool crossed = false;            // whether contours cross or touch, so that addCrossing() made a corner
     bool failed = false;             // whether GLU has reported an error
 };
 

@@ -22,10 +22,10 @@ SampleStorage checkedSamples(SampleStorage samples, const Shape& shape, bool eag
     return samples;
 }
 
-// Returns the indices of the first and the last sample on one axis on which interpolated values at coordinates from
-// `min` to `max` depend. Rounding to floats and LatticeAxis::continuousIndex() are monotonic, so every float from `min`
-// to `max` has a position between those of the two rounded ends. If `min` or `max` is NaN, returns the first and the
-// last sample of the axis.
+// Interpolated values at coordinates from `min` to `max` depend only on a range of samples of the axis. Returns the
+// indices of the first and the last sample of this range. Rounding to floats and LatticeAxis::continuousIndex() are
+// monotonic, so every float from `min` to `max` has a position between those of the two rounded ends. If `min` or `max`
+// is NaN, the range is the whole axis.
 std::pair<std::size_t, std::size_t> sampleIndicesBetween(const LatticeAxis& axis, double min, double max) {
     const auto position = [&](double coordinate) { return axis.continuousIndex(static_cast<float>(coordinate)); };
     const float first = std::isnan(min) || std::isnan(max) ? 0 : std::floor(position(min));

@@ -28,7 +28,7 @@ namespace oval4d::fields {
 ///   at most 2⁻¹⁹ times the difference between the greatest and the least corner.
 class ArrayFunction final : public ScalarFunction {
   public:
-    /// The default of `eagerSamples`, a parameter of the constructor.
+    /// The default of the constructor's parameter `eagerSamples`, a number of samples.
     static constexpr std::size_t kEagerSamples = std::size_t{1} << 27U;
     /// Arrays of up to this many samples have no coarser version, because slicing them is fast without one.
     static constexpr std::size_t kMaxSamplesWithoutCoarser = std::size_t{1} << 15U;

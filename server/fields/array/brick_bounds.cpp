@@ -177,8 +177,8 @@ void BrickBounds::readAllSamples() {
 void BrickBounds::estimateStatistics() {
     constexpr std::size_t kRuns = 4096, kSamples = 64;
     // Each run is a sequence of samples that are neighbors in memory. Run i begins at the fraction (i · kGoldenRatio)
-    // mod 1 of the array. So the beginnings are spread evenly, but not at equal distances, at which all runs might
-    // begin at the same phase of a periodic array.
+    // mod 1 of the array. So the beginnings are spread evenly, but not at equal distances: then all runs might begin at
+    // the same phase of a periodic array.
     constexpr double kGoldenRatio = 0.6180339887498949;
     const std::size_t count = sampleCount(from_.lattice.shape), length = std::min(kSamples, count);
     for (std::size_t run = 0; run < kRuns; ++run) {

@@ -45,7 +45,7 @@ class BrickBounds {
     static constexpr std::size_t kMaxLazyBricks = 64;
     static constexpr std::size_t kMaxLazyBytes = std::size_t{32} << 20U;
 
-    /// The lattice and the samples must outlive this object. `eager` is whether the constructor reads all samples.
+    /// The lattice and the samples must outlive this object. `eager` says whether the constructor reads all samples.
     BrickBounds(const SampledLattice& from, bool eager);
     ~BrickBounds() = default;
     BrickBounds(const BrickBounds&) = delete;

@@ -36,8 +36,8 @@ inline CellRowOffsets rowOffsets(const Lattice& lattice) {
 /// Returns (1 − t) a + t b. If a and b are equal, returns exactly their value.
 inline float mix(float a, float b, float t) { return a + t * (b - a); }
 
-/// The interpolated value at a point, and its derivatives along each axis with respect to CellPoint::t, which are not
-/// those with respect to the coordinates of the point.
+/// The interpolated value at a point, and its derivatives along each axis. The derivatives are with respect to the
+/// position in the cell, CellPoint::t, not to the coordinates of the point.
 struct ValueAndDerivatives {
     float value;
     std::array<float, 4> derivatives;
@@ -68,7 +68,7 @@ struct CellPoint {
     /// Returns the interpolated value, or NaN if a corner with a nonzero weight is not finite.
     float value() const {
         const float plain =
-            interpolateCorners(mix);  // the mean may be not finite because of a corner with the weight 0
+            interpolateCorners(mix);  // a corner with the weight 0 that is not finite makes this number not finite
         if (isFinite(plain)) return plain;
         const float weighted = interpolateCorners([](float a, float b, float s) {
             return s == 0 ? a : s == 1 ? b : mix(a, b, s);

@@ -21,9 +21,9 @@ std::vector<float> downsample(const Shape& shape, std::span<const float> samples
 /// number of samples along the axis with the most samples, rounding up, until there are few enough samples in all.
 Shape selectionShape(Shape shape, std::size_t maxSamples);
 
-/// Returns a selection of `samples`. The selection has the nearest sample for each point of a lattice with the shape
-/// `size` in the same box. Along an axis with several points, this includes the first and the last sample; along an
-/// axis with one point, it is the first sample. `shape` is the shape of `samples`. Reads only the selected samples.
+/// Returns a selection of `samples`: for each point of a lattice with the shape `size` in the same box, the nearest
+/// sample. Along an axis with several points, the first and the last sample are selected among others; along an axis
+/// with one point, only the first sample. `shape` is the shape of `samples`. Reads only the selected samples.
 std::vector<float> selectSamples(const Shape& shape, const SampleStorage& samples, const Shape& size);
 
 }  // namespace oval4d::fields

@@ -22,8 +22,9 @@ namespace {
 
 constexpr std::size_t kLanes = ScalarFunction::kLanes;
 
-// While the values of a group of 8 points are computed, samples for the group kAhead groups later are prefetched. This
-// is done only for every second point, because neighboring points often share cache lines.
+// While the values of a group of 8 points are computed, the samples for another group are prefetched: the one kAhead
+// groups later. Only the samples for every second point are prefetched, because neighboring points often share cache
+// lines.
 constexpr std::size_t kAhead = 4;
 
 // The members of a LatticeAxis, each copied to all lanes.
@@ -52,7 +53,8 @@ OVAL4D_AVX2 inline __m256 mix(__m256 a, __m256 b, __m256 t) {
     return _mm256_add_ps(a, _mm256_mul_ps(t, _mm256_sub_ps(b, a)));
 }
 
-// Converts whole numbers from 0 to 2^51 to integers: adds 2^52, which moves the integer to the low bits of the sum.
+// Writes four whole numbers from 0 to 2^51 to `to` as integers: adds 2^52, which moves a number to the low bits of the
+// sum.
 OVAL4D_AVX2 inline void putIntegers(__m256d numbers, std::int64_t* to) {
     const __m256d rounder = _mm256_set1_pd(0x1p52);
     const __m256d integers = _mm256_xor_pd(_mm256_add_pd(numbers, rounder), rounder);
@@ -204,8 +206,8 @@ OVAL4D_AVX2 void interpolateBatch(const SampledLattice& from, const PointBatch& 
             _mm256_storeu_ps(&gradients.w[i], _mm256_and_ps(w, exists));
         }
         if (_mm256_movemask_ps(valid) == 0xff) continue;
-        // On a face of a cell, a corner that is not finite may have the weight 0. At such points, compute again by the
-        // code that handles this case, if the result so far is not finite.
+        // At a point on a face of its cell, a corner that is not finite may have the weight 0. If the result at such a
+        // point is not finite, CellPoint::value(), which handles this case, computes the value again.
         const int unknown =
             _mm256_movemask_ps(_mm256_andnot_ps(_mm256_or_ps(finite, cells.nan), maskOfPointsOnFaces(cells)));
         for (std::size_t lane = 0; lane < kLanes; ++lane) {

@@ -10,7 +10,7 @@
 
 namespace oval4d::fields {
 
-/// A function that formulas may call, such as sqrt: a row of the table that functions() returns.
+/// A function that formulas may call, such as sqrt: a row of the table that builtinFunctions() returns.
 struct BuiltinFunction {
     std::string_view name;
     std::string_view arguments;  ///< the arguments as shown in help, such as "a, b"

@@ -106,8 +106,8 @@ class TapeDifferentiator : private TapeEvaluator<Math> {
         for (std::size_t i = 0; i < size; ++i) out[i] = partials.byA[i] * ofA[i] + partials.byB[i] * ofB[i];
     }
 
-    // Sets to 0 the derivatives that the last instruction has not written. Then sets a gradient to 0 if one of its
-    // components, or the value at the same point, is not finite.
+    // Sets to 0 the derivatives of the function that the last instruction has not written. Then sets the gradient at a
+    // point to 0 if one of its components, or the value at this point, is not finite.
     static void zeroInvalidGradients(const Instruction& last, const GradientBlock& block) {
         for (unsigned axis = 0; axis < 4; ++axis) {
             if ((last.axes >> axis & 1U) == 0)

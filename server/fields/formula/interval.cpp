@@ -16,7 +16,8 @@ using std::numbers::pi;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kMaxFloat = std::numeric_limits<float>::max();
 
-// Bounds of the rounding error of an operation: relative to its result, and an absolute bound for subnormal results.
+// A bound of the rounding error of an operation: |result| · relative + absolute. The second summand is for subnormal
+// results.
 struct RoundingError {
     double relative, absolute;
 };
@@ -155,8 +156,8 @@ ValueBounds hyperbolicCosine(const ValueBounds& a) {
     return withRoundingError(std::cosh(size.min), std::cosh(size.max), a.hasValueEverywhere, kFunction);
 }
 
-// Returns the interval of a^b for a ≥ 0. On the rectangle of all pairs (a, b), a^b has no extrema inside and is
-// monotonic along each side, so the extrema are at the corners.
+// Returns the interval of a^b; `a` must not contain negative numbers. On the rectangle of all pairs (a, b), a^b has no
+// extrema inside and is monotonic along each side, so the extrema are at the corners.
 ValueBounds powerOfPositive(const ValueBounds& a, const ValueBounds& b) {
     const bool hasValueEverywhere = a.hasValueEverywhere && b.hasValueEverywhere;
     // A zero in `a` may be −0. A power of −0 with an odd negative exponent is −∞, not ∞.

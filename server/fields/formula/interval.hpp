@@ -16,8 +16,8 @@
 //   Each end is moved outward by 2⁻²⁰ of its value. It is also moved by 2⁻¹²⁵, because these functions may return 0 for
 //   a subnormal result.
 // - aⁿ is computed by multiplications, with a relative error of less than n · 2⁻²⁴. Each end is moved outward by
-//   n · 2⁻²³ of its value. A power with the exponent n + 1/2, n ≤ 8, is aⁿ times a square root; its interval is widened
-//   like that of sin.
+//   n · 2⁻²³ of its value and by n · 2⁻¹⁴⁸. A power with the exponent n + 1/2, where n is an integer from 0 to 8, is aⁿ
+//   times a square root; its interval is widened like that of sin.
 // - Negation, abs, min, max, step, sign and floor are exact, so their intervals are not widened.
 
 #include "fields/formula/operation.hpp"

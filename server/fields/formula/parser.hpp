@@ -38,7 +38,7 @@ struct ParsedFormula {
 ///
 /// - the operators + − * / ^, parentheses, decimal numbers with or without exponent, `pi`, `phi`, and the units °, deg
 ///   and rad after a number, name or parenthesis;
-/// - the variables x, y, z, w (also called t) and r = sqrt(x² + y² + z²), and the functions in functions();
+/// - the variables x, y, z, w (also called t) and r = sqrt(x² + y² + z²), and the functions in builtinFunctions();
 /// - at most one comparison =, <, <=, > or >=, outside of parentheses: a = b, a < b and a <= b mean the function a − b;
 ///   a > b and a >= b mean b − a, so that the inequality holds where the function is negative;
 /// - names, which consist of letters, digits and underscores, begin with a letter, and are defined after the formula:

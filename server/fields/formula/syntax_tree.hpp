@@ -74,8 +74,8 @@ struct SyntaxTree {
     }
 };
 
-/// Adds the tree to the graph, with these values of the constants. Returns the node of the formula's function. This is
-/// `left` without a comparison, right − left if the relation is greater or greater_equal, and left − right for other
+/// Adds the tree to the graph, with these values of the constants. Returns the graph's node of the formula's function:
+/// left without a comparison, right − left if the relation is greater or greater_equal, and left − right for other
 /// comparisons.
 OperationGraph::NodeIndex buildGraph(const SyntaxTree& tree, std::span<const FormulaConstant> constants,
                                      OperationGraph& graph);

@@ -136,7 +136,7 @@ class TapeEvaluator {
         map([](float x, float y) { return x * __builtin_sqrtf(y); }, out, ArrayOperand{power}, ArrayOperand{a}, size);
     }
 
-    // Computes power or atan2. Unlike that of C's pow, the result is NaN whenever an operand is NaN.
+    // Computes power or atan2. The result is NaN whenever an operand is NaN, unlike the result of C's pow.
     static void powerOrAtan2(const Instruction& instruction, float* out, const float* a, const float* b,
                              std::size_t size) {
         const auto number = static_cast<float>(instruction.number);

@@ -15,8 +15,8 @@
 
 namespace oval4d::fields {
 
-/// The maximum number of elements of a slab. A slab is a part of an array that is read and converted at once. After
-/// each slab, the readers release the pages of mapped files.
+/// The maximum size of a slab, in numbers. A slab is a part of an array that is read and converted at once. After each
+/// slab, the readers release the pages of mapped files.
 inline constexpr std::size_t kSlabSize = std::size_t{1} << 24U;
 
 /// The size in bytes of the caches of the libraries for HDF5 and NetCDF. The caches keep decompressed chunks, because
@@ -46,8 +46,8 @@ std::vector<std::size_t> dimensionsWithAxes(std::span<const std::size_t> sizes);
 /// A part of an array that is read and converted at once.
 struct Slab {
     std::array<std::size_t, 4> start;  ///< the indices of the slab's first number, in the order of StridedLayout::size
-    StridedLayout layout;              ///< the sizes of the slab, and its strides in the samples of the field
-    std::size_t first;                 ///< the index of the slab's first number in the samples of the field
+    StridedLayout layout;              ///< the sizes of the slab, and the strides among the samples of the field
+    std::size_t first;                 ///< the index, among the samples of the field, of the slab's first number
 };
 
 /// Maps the dimensions of an array in a file to the axes of the samples of a field: says where each number of the file
@@ -62,10 +62,11 @@ class AxisMapping {
     const Shape& shape() const { return shape_; }
     std::size_t count() const { return sampleCount(shape_); }
 
-    /// Returns the sizes of the array's dimensions and their strides in the samples. If the array has fewer than 4
-    /// dimensions, dimensions of size 1 precede them.
+    /// Returns the sizes of the array's dimensions and, for each of them, the stride: the distance among the samples
+    /// between neighbors. If the array has fewer than 4 dimensions, dimensions of size 1 precede them.
     const StridedLayout& layout() const { return layout_; }
-    /// Returns the index in the samples of the array's first number. The index is 0 unless a dimension is reversed.
+    /// Returns the index, among the samples, of the array's first number. The index is 0 unless a dimension is
+    /// reversed.
     std::size_t firstSampleIndex() const { return first_; }
 
     /// Returns whether the file stores the numbers in the memory order of the samples: x fastest, w slowest (see
@@ -76,10 +77,10 @@ class AxisMapping {
     /// possible: a part of a compressed file may be decompressed again for each slab that needs it.
     std::vector<Slab> slabs(std::size_t maxCount) const;
 
-    /// Returns the samples of the array. `bytes` is the part of the file that stores the numbers in the format
-    /// `format`; it must contain at least count() numbers. Uses the bytes in place if they are aligned, in order (see
-    /// isInMemoryOrder()), and plain 32-bit floats (see NumberFormat::needsNoConversion()) in this processor's byte
-    /// order. Otherwise, converts them. Errors: those of SampleBuffer::allocate().
+    /// Returns the samples of the array. `bytes` is the part of `file` that stores the numbers in the format `format`;
+    /// it must contain at least count() numbers. Uses the bytes in place, without a copy, if they are aligned, in order
+    /// (see isInMemoryOrder()), and plain 32-bit floats (see NumberFormat::needsNoConversion()) in this processor's
+    /// byte order. Otherwise, converts them. Errors: those of SampleBuffer::allocate().
     Result<SampleStorage> samples(const FileContents& file, std::span<const std::byte> bytes,
                                   const NumberFormat& format, const FieldReadOptions& options) const;
 

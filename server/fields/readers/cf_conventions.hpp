@@ -36,10 +36,10 @@ std::optional<FirstAndLastCoordinate> endsOfCoordinates(std::span<const double> 
                                                         std::vector<std::string>& warnings);
 
 /// Shifts coordinates that are too close together for their distance from 0, such as hours since 1900: 32-bit floats,
-/// with which functions are evaluated, hardly distinguish places between them. They are too close if the mean distance
-/// of the `count` coordinates between these ends is less than 2·10⁻⁵ of their distance from 0. In this case, subtracts
-/// the least coordinate from both ends, adds a warning with this coordinate, and removes " since …" from `unit`. `name`
-/// is the name of the dimension.
+/// with which functions are evaluated, hardly distinguish places between neighboring coordinates. `count` is the number
+/// of coordinates from ends.first to ends.last. They are too close if their mean distance is less than 2·10⁻⁵ times the
+/// greater absolute value of the two ends. In this case, subtracts the least coordinate from both ends, adds a warning
+/// with this coordinate, and removes " since …" from `unit`. `name` is the name of the dimension.
 void rebaseToLeastIfFar(FirstAndLastCoordinate& ends, std::size_t count, const std::string& name, std::string& unit,
                         std::vector<std::string>& warnings);
 

@@ -42,8 +42,9 @@ class Hdf5Handle {
     herr_t (*close_)(hid_t);
 };
 
-// The functions with which the HDF5 library gets memory for a copy of the file and fills it. To avoid the copy, they
-// return the file's own bytes. The library does not write to these bytes, because it opens the file only for reading.
+// The functions that the HDF5 library calls to get memory for a copy of the file and to fill it. To avoid the copy, the
+// functions return the file's own bytes. The library does not write to these bytes, because it opens the file only for
+// reading.
 void* useFileBytes(std::size_t /*size*/, H5FD_file_image_op_t /*purpose*/, void* bytes) { return bytes; }
 void* copyNothing(void* to, const void* from, std::size_t /*size*/, H5FD_file_image_op_t /*purpose*/, void* /*bytes*/) {
     return to == from ? to : nullptr;
@@ -171,8 +172,8 @@ std::optional<std::span<const std::byte>> storedBytes(const FileContents& file, 
     return file.bytes.subspan(offset, size);
 }
 
-// Reads the dataset slab by slab, and converts its numbers to samples. `stored` is the HDF5 type of the numbers, and
-// `kept` are the dimensions that `mapping` maps to axes (see dimensionsWithAxes()); the others have the size 1.
+// Reads the dataset slab by slab, and converts its numbers to samples. `stored` is the HDF5 type of the numbers. `kept`
+// are the dimensions that `mapping` maps to axes (see dimensionsWithAxes()); all other dimensions have the size 1.
 Result<SampleStorage> readSlabs(const FileContents& file, const FieldReadOptions& options, hid_t dataset, hid_t stored,
                                 const std::vector<std::size_t>& kept, const AxisMapping& mapping,
                                 const NumberFormat& format) {
@@ -228,7 +229,7 @@ std::string defaultDataset(hid_t file, const std::vector<std::string>& datasets,
     return chosen;
 }
 
-// Returns the first kMaxQuantityText bytes of an attribute of a dataset. Returns an empty string if the dataset has no
+// Returns an attribute of a dataset as sanitizeQuantityText() returns it. Returns an empty string if the dataset has no
 // such attribute, or if the attribute is not a single text.
 std::string textOfAttribute(hid_t dataset, const char* attribute) {
     constexpr std::size_t kMost = 65536;  // the size in bytes of the largest text that is read

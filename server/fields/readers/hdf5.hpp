@@ -20,8 +20,8 @@ bool isHdf5Start(std::span<const std::byte> start);
 /// by slabs. The box is that of the options, or defaultBox(). NetCDF-4 files are passed to readNetcdf().
 ///
 /// Does not accept files that refer to other files by external links, external storage or virtual datasets. Loads no
-/// plug-ins. Errors: `bad_field`, `too_large`; `not_found` if there is no such path; `out_of_range` for the other
-/// options.
+/// plug-ins. Errors: `bad_field`, `too_large`; `not_found` if there is no dataset at the path `options.variable`;
+/// `out_of_range` if `options.axes` does not fit the dataset.
 ///
 /// The HDF5 library is not safe for hostile files: files from strangers should be read in a confined process.
 /// Thread-safe only if the HDF5 library is thread-safe.

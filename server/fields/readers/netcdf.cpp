@@ -89,7 +89,8 @@ std::string dimensionName(int group, int dimension) {
     return nc_inq_dimname(group, dimension, name.data()) == NC_NOERR ? name.data() : "";
 }
 
-// Returns the first kMaxQuantityText bytes of an attribute that is a text.
+// Returns an attribute that is a text, as sanitizeQuantityText() returns it. Returns an empty string if there is no
+// such attribute.
 std::string attributeText(const NetcdfVariable& variable, const char* attribute) {
     nc_type type = NC_NAT;
     std::size_t length = 0;
@@ -169,8 +170,8 @@ NumberFormat netcdfNumberFormatOf(const NetcdfVariable& variable, const NetcdfTy
 
 // Returns the coordinate variable of a dimension of `variable`: the variable that has the name of the dimension, and
 // has only this dimension. The coordinate variable may be in the group of `variable` or in an outer group. The name
-// alone does not identify it: a variable may be named like a dimension that it does not have, and a dimension of a
-// group may be named like a dimension of an outer group.
+// alone does not identify the coordinate variable: a variable may be named like a dimension that it does not have, and
+// a dimension of a group may be named like a dimension of an outer group.
 std::optional<NetcdfVariable> coordinateVariableOf(const NetcdfVariable& variable, int dimension) {
     const std::string name = dimensionName(variable.group, dimension);
     int group = variable.group;
@@ -194,8 +195,8 @@ CfDimension describeDimension(const NetcdfVariable& variable, int dimension) {
 }
 
 // Returns the indices of the dimensions of a variable that become axes. If there are more than four dimensions, leaves
-// out dimensions of size 1 until four remain. First leaves out those that are no axes of space or time, such as the
-// only member of an ensemble.
+// out dimensions of size 1 until four remain: first those that are no axes of space or time, such as the dimension for
+// the only member of an ensemble.
 std::vector<std::size_t> dimensionsAfterSqueeze(const NetcdfVariable& variable) {
     std::vector<std::size_t> kept(variable.dimensions.size());
     std::iota(kept.begin(), kept.end(), std::size_t{0});
@@ -225,7 +226,8 @@ bool isAuxiliary(const NetcdfVariable& variable) {
                           attributeText(*coordinate, "climatology") == variable.name);
 }
 
-// Returns the file's groups: the root group, then the groups within it.
+// Returns the file's groups: the root group, then the groups within it, outer groups before inner groups. Stops at
+// kMaxGroups groups.
 std::vector<int> groupsOf(int file) {
     constexpr std::size_t kMaxGroups = 10'000;
     std::vector<int> groups{file};

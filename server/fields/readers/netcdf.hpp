@@ -29,9 +29,9 @@ bool isNetcdfStart(std::span<const std::byte> start);
 /// type), is less than `valid_min` or greater than `valid_max`, or lies outside `valid_range`. `scale_factor` and
 /// `add_offset` are applied.
 ///
-/// Errors: `bad_field`, `too_large`; `not_found` if there is no such variable; `out_of_range` for the other options.
-/// The NetCDF library is neither thread-safe nor safe for hostile files: files from strangers should be read in a
-/// confined process.
+/// Errors: `bad_field`, `too_large`; `not_found` if there is no variable at the path `options.variable`; `out_of_range`
+/// if `options.axes` does not fit the variable. The NetCDF library is neither thread-safe nor safe for hostile files:
+/// files from strangers should be read in a confined process.
 Result<FieldArray> readNetcdf(const FileContents& file, const FieldReadOptions& options);
 
 }  // namespace oval4d::fields

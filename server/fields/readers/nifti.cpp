@@ -19,7 +19,7 @@ namespace oval4d::fields {
 
 namespace {
 
-constexpr std::size_t kHeader1 = 348, kHeader2 = 540;
+constexpr std::size_t kHeader1 = 348, kHeader2 = 540;  // sizes of the headers of NIfTI-1 and NIfTI-2 in bytes
 constexpr double kMaxDataAt = 1 << 24;  // the maximum number of bytes of header and extensions before the data
 constexpr std::size_t kDimensions = 7;
 
@@ -50,8 +50,8 @@ struct NiftiHeader {
     bool bigEndian = false;
     std::int64_t dimensions = 0;
     std::array<std::int64_t, kDimensions> size{};
-    std::array<double, 5> spacing{};  // pixdim: the sign of the third axis, then the distances between samples along
-                                      // four dimensions
+    std::array<double, 5> spacing{};  // `pixdim` of the header: the sign of the third axis, then the distances between
+                                      // samples along four dimensions
     int type = 0, units = 0, qform = 0, sform = 0;
     double dataAt = 0, slope = 0, intercept = 0, firstTime = 0;
     std::array<double, 3> quaternion{}, offset{};

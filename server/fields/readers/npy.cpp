@@ -17,8 +17,8 @@ namespace {
 
 constexpr std::string_view kMagic("\x93NUMPY", 6);
 constexpr std::size_t kMaxHeader = 65'536;  // the maximum size of a header in bytes; usual headers have less than 200
-constexpr std::size_t kMaxNumpyDimensions = 32;  // the maximum number of dimensions of an array in NumPy 1
-constexpr std::size_t kMaxSize = std::size_t{1} << 48U;
+constexpr std::size_t kMaxNumpyDimensions = 32;          // the maximum number of dimensions of an array in NumPy 1
+constexpr std::size_t kMaxSize = std::size_t{1} << 48U;  // the maximum size of a dimension in a header
 
 struct NpyHeader {
     std::string_view descr;

@@ -30,9 +30,9 @@ struct NumberFormat {
     /// Returns whether all stored numbers stand for themselves: there is no scale, offset, missing number or limit.
     bool needsNoConversion() const;
 
-    /// Returns the number of the type `type` that is closest to `number`. For types other than f4, returns `number`. A
-    /// file of 32-bit floats may state a missing value or a limit as a double or in decimal notation, such as 0.1,
-    /// which is not equal to a 32-bit float.
+    /// Returns the 32-bit float that is closest to `number` if `type` is f4; otherwise, returns `number`. A file of
+    /// 32-bit floats may state a missing value or a limit as a double or in decimal notation, such as 0.1, which is not
+    /// equal to a 32-bit float. A number beyond the largest float is returned unchanged.
     double roundedToType(double number) const;
     /// Applies roundedToType() to `missing`, `min` and `max`.
     void roundLimitsToType();

@@ -223,8 +223,8 @@ Result<ZarrArrayPart> selectedPart(const FolderFileReader& folder, const ZarrFol
     return part;
 }
 
-// Returns the selected part of an array. The options select the array by name, and the part by a region. Without a
-// name, chooses the array as readZarr() describes.
+// Returns the selected part of an array. The option `variable` names the array, and the option `region` selects the
+// part. Without a name, chooses the array as readZarr() describes.
 Result<ZarrArrayPart> chosenArrayPart(const FolderFileReader& folder, const ZarrFolder& zarr,
                                       const FieldReadOptions& options) {
     std::string path = options.variable;
@@ -276,7 +276,8 @@ Result<ZarrArrayPart> chosenArrayPart(const FolderFileReader& folder, const Zarr
     }
 }
 
-// Returns the level of a multiscale image that the array at `path` is.
+// Returns which level of a multiscale image the array at `path` is; MultiscaleImageLevel::finer is not set. Returns
+// a default MultiscaleImageLevel if the array is not a level of such an image.
 MultiscaleImageLevel imageLevelOf(const ZarrFolder& zarr, const std::string& path) {
     const auto chosen = zarr.chooseArray();
     if (!chosen || !chosen->areLevels) return {};

@@ -21,7 +21,7 @@ inline constexpr std::array<std::string_view, 3> kZarrFiles{"zarr.json", ".zarra
 /// `options.variable` is the path of the array in the folder. Without this option:
 ///
 /// - If the folder is an array, reads this array.
-/// - If the folder is a multiscale image (OME-Zarr), reads the level `options.level`. Without this option, reads the
+/// - If the folder is a multiscale image (OME-Zarr), reads the level `options.level`. If no level is given, reads the
 ///   finest level of which the part has at most `options.maxInMemory` and `options.maxInFirstLevel` samples, or else
 ///   the coarsest level.
 /// - If the folder is another group, reads the array with the most dimensions. The consolidated metadata of the group

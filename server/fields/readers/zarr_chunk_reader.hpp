@@ -74,8 +74,8 @@ class ZarrChunkReader {
   private:
     using Indices = std::vector<std::size_t>;
 
-    // Moves `index` to the next place in C order. Along each dimension, the places are from `begin` to `end` − 1.
-    // Returns false after the last place.
+    // Moves `index` to the next place in C order (the last dimension varies fastest). Along each dimension, the places
+    // are from `begin` to `end` − 1. After the last place, returns to the first one and returns false.
     static bool nextIndexInRange(Indices& index, const Indices& begin, const Indices& end) {
         for (std::size_t i = index.size(); i-- > 0;) {
             if (++index[i] < end[i]) return true;
@@ -143,9 +143,11 @@ class ZarrChunkReader {
         });
     }
 
-    // Visits the stored rows of a chunk that have numbers in the part. Calls `visit` for each row with four numbers:
-    // the index in the chunk of the row's first number in the part; the distance in `to` from the part's first number
-    // to this number; the number of the row's numbers in the part; and the distance between their places in `to`.
+    // Visits the stored rows of a chunk that have numbers in the part. Calls `visit` for each row with four arguments:
+    // - the index, in the chunk, of the first number n of the row that is in the part;
+    // - the distance in `to` from the place of the part's first number to the place of n;
+    // - how many numbers of the row are in the part;
+    // - the distance in `to` between the places of two such numbers that are neighbors.
     template <typename Visit>
     void visitRows(const std::vector<std::size_t>& index, const std::vector<std::ptrdiff_t>& stride,
                    const Visit& visit) const {

@@ -21,8 +21,8 @@ std::string quoted(const nlohmann::json& value);
 /// Returns the text of a JSON file, with NaN and Infinity, which Python writes into such files, replaced by null.
 std::string replaceNanByNull(std::string text);
 
-/// Returns a member of an object. Returns null if `object` is not an object, or if the member does not exist or is
-/// null.
+/// Returns a member of an object. Returns nullptr if `object` is not a JSON object, or if the member does not exist or
+/// is null.
 const nlohmann::json* findMember(const nlohmann::json& object, std::string_view name);
 
 /// Returns a member that is a string. Returns an empty string if there is no such member, or if it is not a string.
@@ -32,8 +32,8 @@ std::string stringMember(const nlohmann::json& object, std::string_view name);
 /// strings "NaN", "Infinity" and "-Infinity". Returns an empty optional for other values.
 std::optional<double> numberIn(const nlohmann::json& value);
 
-/// Returns the number that a text encodes as a little-endian double in Base64 (RFC 4648). xarray writes the attribute
-/// _FillValue of floats in this form in version 3. Returns an empty optional for any other text.
+/// Returns the number that a text encodes as a little-endian double in Base64 (RFC 4648). In version 3 of Zarr, xarray
+/// writes the attribute _FillValue of floats in this form. Returns an empty optional for any other text.
 std::optional<double> base64DoubleIn(const std::string& text);
 
 }  // namespace oval4d::fields

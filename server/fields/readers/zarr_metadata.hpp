@@ -17,8 +17,8 @@
 
 namespace oval4d::fields {
 
-/// A function that returns the text of a file in the folder by its relative path. Returns an empty optional if there is
-/// no such file.
+/// A function that returns the text of the file at `path`, relative to the Zarr folder. Returns an empty optional if
+/// there is no such file.
 using FolderTextReader = std::function<Result<std::optional<std::string>>(const std::string& path)>;
 
 /// The metadata of an array in a Zarr folder.

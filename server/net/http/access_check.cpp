@@ -33,8 +33,8 @@ AccessCheckInput accessCheckInputOf(const HttpRequest& request, const RequestTar
             field("Sec-Fetch-Dest")};
 }
 
-// Returns whether the server can use one of the subprotocols that a client offers, in the text of the header field. An
-// empty list is acceptable. Names are case-sensitive (RFC 6455, section 11.5).
+// Returns whether the server supports one of the WebSocket subprotocols that a client offers, or the client offers
+// none. `offered` is the value of the header field, a list of names. Names are case-sensitive (RFC 6455, section 11.5).
 bool acceptsSubprotocol(const std::string& offered) {
     const http::token_list names(offered);
     return offered.empty() || std::ranges::any_of(names, [](beast::string_view name) { return name == kSubprotocol; });
@@ -66,8 +66,8 @@ std::optional<HttpReply> checkAccess(const HttpRequest& request, const RequestTa
                                      const AccessControl& access, ClientAccount& client,
                                      ClientAccount::Clock::time_point now, std::string& cookie) {
     AccessCheckInput fields = accessCheckInputOf(request, target);
-    // Everybody may load the page's own files. Such a request may have any Origin, because a proxy that changes Host
-    // would make it differ from the Origin.
+    // Everybody may load the files of the web client, so such a request may have any Origin. Otherwise, the client
+    // would not load behind a proxy that changes Host, because Host would then differ from Origin.
     if (!isCrossSiteRestricted(target)) fields.origin = {};
     switch (access.check(fields)) {
         case AccessControl::Verdict::bad_host:

@@ -17,16 +17,16 @@ namespace oval4d::net {
 /// Returns the value of a header field; an empty view if there is none. The view refers to the memory of the request.
 std::string_view headerField(const HttpRequest& request, boost::beast::http::field name);
 
-/// Parses the target (path and query) of a request. Returns an empty optional if it is malformed.
+/// Parses the target (path and query) of a request. Returns an empty optional if the target is malformed.
 std::optional<RequestTarget> targetOf(const HttpRequest& request);
 
 /// Returns whether pages of other sites must not request this target. True for the API and for WebSockets, because
-/// answers cost time or reveal data.
+/// their answers cost time or reveal data.
 bool isCrossSiteRestricted(const RequestTarget& target);
 
-/// Checks a request by the rules of `access`. `now` is the present time; a wrong token counts against the client's rate
-/// limit. If the request is refused, returns the reply. If it is allowed, returns an empty optional. Then sets `cookie`
-/// to the value of the reply's Set-Cookie; to an empty string if the reply needs no cookie.
+/// Checks a request by the rules of `access`. `now` is the present time. A wrong token counts against the rate limit of
+/// `client`. If the request is refused, returns the reply. If the request is allowed, returns an empty optional, and
+/// sets `cookie` to the value of the reply's field Set-Cookie, or to an empty string if the reply needs no cookie.
 std::optional<HttpReply> checkAccess(const HttpRequest& request, const RequestTarget& target,
                                      const AccessControl& access, ClientAccount& client,
                                      ClientAccount::Clock::time_point now, std::string& cookie);
@@ -35,9 +35,9 @@ std::optional<HttpReply> checkAccess(const HttpRequest& request, const RequestTa
 /// paths.
 std::optional<std::string> sessionIdInPath(const std::string& path);
 
-/// Checks a WebSocket handshake. `now` is the present time. `hasFurtherBytes` tells whether the client has already sent
-/// bytes after the handshake. If the handshake is refused, returns the reply. If it is allowed, returns an empty
-/// optional, and sets `session` to the session id in the path.
+/// Checks a WebSocket handshake, also by the rules of `access`. `now` is the present time. `hasFurtherBytes` tells
+/// whether the client has already sent bytes after the handshake. If the handshake is refused, returns the reply. If
+/// the handshake is allowed, returns an empty optional, and sets `session` to the session id in the path.
 std::optional<HttpReply> checkHandshake(const HttpRequest& request, const AccessControl& access, ClientAccount& client,
                                         ClientAccount::Clock::time_point now, bool hasFurtherBytes,
                                         std::string& session);

@@ -21,8 +21,8 @@ bool equalsIgnoringCase(std::string_view a, std::string_view b) {
 bool isHexadecimal(char c) { return text::isDigit(c) || (c >= 'a' && c <= 'f') || (c >= 'A' && c <= 'F'); }
 bool isHostNameCharacter(char c) { return text::isDigit(c) || text::isLetter(c) || c == '-' || c == '.' || c == '_'; }
 
-/// Returns the port of an authority. If it has none, returns `defaultPort`, because browsers omit the default port of a
-/// scheme.
+/// Returns the port of `authority`. If `authority` has no port, returns `defaultPort`, because browsers omit the
+/// default port of a scheme.
 std::string_view portOrDefault(const UrlAuthority& authority, std::string_view defaultPort) {
     return authority.port.empty() ? defaultPort : authority.port;
 }
@@ -37,7 +37,8 @@ bool isListed(const std::vector<std::string>& list, std::string_view text) {
         list, [text](const std::string& entry) { return entry == "*" || equalsIgnoringCase(entry, text); });
 }
 
-/// Returns the value of the token cookie in the header field Cookie; an empty string if it has no such cookie.
+/// Returns the value of the token cookie in `header`, the value of the field Cookie. Returns an empty string if there
+/// is no such cookie.
 std::string_view tokenCookieIn(std::string_view header) {
     while (!header.empty()) {
         const std::size_t end = std::min(header.find(';'), header.size());
@@ -51,7 +52,8 @@ std::string_view tokenCookieIn(std::string_view header) {
     return {};
 }
 
-/// Returns the token after "Bearer " in the header field Authorization; the whole field if it does not begin so.
+/// Returns the token after "Bearer " in the value of the field Authorization. If the value does not begin with "Bearer
+/// ", returns the whole value.
 std::string_view bearerTokenIn(std::string_view authorization) {
     constexpr std::string_view kBearer = "Bearer ";
     if (equalsIgnoringCase(authorization.substr(0, kBearer.size()), kBearer))
@@ -102,7 +104,8 @@ AccessControl::Verdict AccessControl::check(const AccessCheckInput& fields) cons
 
 std::string AccessControl::tokenCookieFor(const AccessCheckInput& fields) const {
     if (token_.empty() || !store::equalInConstantTime(fields.token, token_)) return {};
-    // A cookie without the attribute Path applies to the page's own folder, whatever path prefix a proxy adds.
+    // The cookie has no attribute Path, so browsers send it for the folder of the page, whatever path prefix a proxy
+    // adds.
     return std::string(kCookie) + "=" + token_ + "; HttpOnly; SameSite=Strict";
 }
 
@@ -116,9 +119,10 @@ bool AccessControl::isListedOrigin(std::string_view origin) const {
     return !origin.empty() && isListed(origins_, origin);
 }
 
-/// Returns whether a request to `host` with this Origin is allowed. A request without Origin is allowed, because the
-/// server's own page or a program other than a browser has sent it. The origin of the server's own pages has the same
-/// host and port as the request. Its scheme may differ, because a proxy may terminate TLS.
+/// Returns whether a request with these values of the fields Origin and Host is allowed. A request without Origin is
+/// allowed, because the server's own page or a program other than a browser has sent it. An origin with the same host
+/// and port as `host` is allowed, because it is the origin of the server's own page. The scheme may differ, because a
+/// proxy may terminate TLS.
 bool AccessControl::isAllowedOrigin(std::string_view origin, std::string_view host) const {
     if (origin.empty() || isListedOrigin(origin)) return true;
     for (const auto& [scheme, port] : {std::pair("http://", "80"), std::pair("https://", "443")}) {

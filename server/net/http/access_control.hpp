@@ -33,18 +33,18 @@ std::optional<UrlAuthority> parseAuthority(std::string_view text);
 /// does not know it.
 class AccessControl {
   public:
-    /// `hosts` are the allowed host names. If there are none, loopback names are allowed, and all names if `loopback`
-    /// is false. `loopback` tells whether the server listens only on loopback addresses. `origins` are the allowed
-    /// foreign origins; the server's own origin is always allowed. In both lists, "*" allows all. `token` is the
-    /// required token; empty if none is required.
+    /// `hosts` are the allowed host names. `loopback` tells whether the server listens only on loopback addresses. If
+    /// `hosts` is empty, only loopback names are allowed if `loopback` is true, and all names if it is false. `origins`
+    /// are the allowed foreign origins; the server's own origin is always allowed. In `hosts` and in `origins`, "*"
+    /// allows all. `token` is the required token; empty if none is required.
     AccessControl(std::vector<std::string> hosts, std::vector<std::string> origins, std::string token, bool loopback);
 
     enum class Verdict { allowed, bad_host, bad_origin, bad_token };
     /// Checks the host, then the origin, then the token. Returns the first failure, or `allowed`.
     Verdict check(const AccessCheckInput& fields) const;
 
-    /// Returns whether a page of another site makes the request, according to the browser, and this site is not an
-    /// allowed foreign origin. Such a request must not cause expensive work. Returns false if a person has followed a
+    /// Returns whether, according to the browser, a page of another site has made the request, and this site is not an
+    /// allowed foreign origin. Such a request must not cause expensive work. Returns false if the user has followed a
     /// link on such a page.
     bool isUnwantedCrossSite(const AccessCheckInput& fields) const;
 

@@ -9,8 +9,8 @@ namespace oval4d::net {
 
 namespace {
 
-/// Parses a decimal number of bytes. Returns the maximum of std::size_t for larger numbers, and an empty optional
-/// unless the text consists of digits.
+/// Parses a decimal number of bytes. For a number above the maximum of std::size_t, returns this maximum. Returns an
+/// empty optional unless the text consists of digits.
 std::optional<std::size_t> parseByteCount(std::string_view digits) {
     std::size_t value = 0;
     const auto [end, fault] = std::from_chars(digits.data(), digits.data() + digits.size(), value);

@@ -7,20 +7,20 @@
 
 namespace oval4d::net {
 
-/// Returns whether the header field If-None-Match contains an entity tag, by weak comparison. `tag` includes its
-/// quotes. The field `*` matches any tag.
+/// Returns whether the header field If-None-Match contains the entity tag `tag`, whose quotes are included. A prefix W/
+/// in the field does not matter (weak comparison). The field `*` matches any tag.
 bool matchesEntityTag(std::string_view ifNoneMatch, std::string_view tag);
 
-/// A range of bytes that a client requests: `size` bytes from the offset `first`. If `satisfiable` is false, the file
-/// has no byte in this range.
+/// A range of bytes that a client requests from a file: `size` bytes from the offset `first`. If `satisfiable` is
+/// false, the file has no byte in the requested range.
 struct ByteRange {
     std::size_t first = 0, size = 0;
     bool satisfiable = true;
 };
 
-/// Parses the header field Range of a request for a file of `size` bytes. Returns an empty optional if the server
-/// should send the whole file: for units other than bytes, for several ranges, and for malformed fields. A server may
-/// ignore all of these (RFC 9110, section 14.2).
+/// Parses the header field Range of a request for a file of `size` bytes. Returns an empty optional for units other
+/// than bytes, for several ranges, and for a malformed field. The server then sends the whole file, because it may
+/// ignore the field Range (RFC 9110, section 14.2).
 std::optional<ByteRange> parseRange(std::string_view range, std::size_t size);
 
 }  // namespace oval4d::net

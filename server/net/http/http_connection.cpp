@@ -43,7 +43,8 @@ constexpr std::size_t kReadBufferBytes = 64U << 10U;
 constexpr std::size_t kMaxLingerBytes = 256U << 10U;
 constexpr auto kLingerTime = std::chrono::seconds(1);
 
-constexpr int kNotSentLowat = 256 << 10;  // roughly the most unsent bytes in the kernel's buffer
+// The kernel's buffer of a socket contains at most about this many bytes that are not sent yet.
+constexpr int kNotSentLowat = 256 << 10;
 
 /// Serves the HTTP requests of one connection, one after another.
 class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
@@ -95,7 +96,7 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
     beast::flat_buffer buffer_{kReadBufferBytes};
     bool first_ = true, reading_ = false, stopping_ = false;
     const std::unique_ptr<Timer> deadline_;  // closes the stream when it expires
-    std::uint64_t deadlineChanges_ = 0;      // how often deadline_ was started or ended: a late call is ignored
+    std::uint64_t deadlineChanges_ = 0;      // how often deadline_ was started or ended; tells late calls of deadline_
     bool timedOut_ = false;                  // whether deadline_ has closed the stream
 };
 
@@ -169,7 +170,7 @@ asio::awaitable<std::optional<HttpRequest>> HttpConnection::readRequest() {
 }
 
 /// If a trusted proxy has sent the request, assigns the connection to the client that X-Forwarded-For names, and checks
-/// whether that client has too many connections. Otherwise does nothing.
+/// whether that client has too many connections. Otherwise, does nothing.
 void HttpConnection::identifyClient(const HttpRequest& request) {
     boost::system::error_code fault;
     const auto peer = stream_.socket().remote_endpoint(fault);
@@ -183,8 +184,8 @@ void HttpConnection::identifyClient(const HttpRequest& request) {
     admission_ = context_.connections.makeRoomFor(*client_, 1);
 }
 
-/// Returns the refusal with which every request on this connection is answered; an empty optional unless the connection
-/// exceeds a limit.
+/// If this connection exceeds a limit on connections, returns the refusal with which each of its requests is answered;
+/// otherwise an empty optional.
 std::optional<HttpReply> HttpConnection::refuseConnection() const {
     if (admission_ == ConnectionRegistry::AdmissionDecision::server_full)
         return refusalReply(503, "the server has too many connections; try again later\n");
@@ -226,9 +227,9 @@ asio::awaitable<HttpReply> HttpConnection::answer(const HttpRequest& request) {
     co_return reply;
 }
 
-/// Receives an uploaded file. Loads its field into a session, or restores the state in the file. Before it reads the
-/// body, it checks the header and joins the session. Closes the connection if it refuses the upload before the whole
-/// body is read. Resolves to whether another request may follow on this connection.
+/// Receives an uploaded file. Loads its field into a session, or restores the state in the file. Checks the header and
+/// joins the session before the body is read. If the upload is refused before the whole body is read, closes the
+/// connection. Resolves to whether another request may follow on this connection.
 asio::awaitable<bool> HttpConnection::serveUpload(HttpRequest request) {
     UploadRequest upload;
     std::string token;
@@ -381,7 +382,8 @@ asio::awaitable<void> HttpConnection::refuse(const HttpRequest& request, HttpRep
     co_await linger();
 }
 
-/// Reads and discards input for a short time, then closes the socket. The client then receives the reply sent before.
+/// Reads and discards input for a short time, so that the client receives the reply that was sent before. Then closes
+/// the socket.
 asio::awaitable<void> HttpConnection::linger() {
     boost::system::error_code ignored;
     (void)stream_.socket().shutdown(asio::ip::tcp::socket::shutdown_send, ignored);
@@ -449,8 +451,9 @@ asio::awaitable<void> HttpConnection::upgrade(HttpRequest request, std::string s
             self->drop();
         }
     });
-    // Of several fields called Connection or Upgrade, Beast checks only the first. isWebSocketUpgrade() has checked
-    // their combined values, so they are replaced by single fields with the values that Beast requires.
+    // isWebSocketUpgrade() has checked the combined values of all fields Connection and of all fields Upgrade. Beast
+    // checks only the first field of each name. So these fields are replaced by single ones with the values that Beast
+    // requires.
     request.set(http::field::connection, "upgrade");
     request.set(http::field::upgrade, "websocket");
     co_await connection->serveClient(std::move(request));
@@ -482,7 +485,7 @@ void HttpConnection::end(ConnectionRegistry::EndReason reason) {
 asio::awaitable<void> serveHttp(asio::ip::tcp::socket socket, ServerContext context) {
     boost::system::error_code fault;
     (void)socket.set_option(asio::ip::tcp::no_delay(true), fault);
-    // Limits the bytes in the kernel's buffer, so that the server can see how fast a client reads.
+    // Limits the unsent bytes in the kernel's buffer, so that the server can see how fast a client reads.
     using NotSentLimit = asio::detail::socket_option::integer<IPPROTO_TCP, TCP_NOTSENT_LOWAT>;
     (void)socket.set_option(NotSentLimit(kNotSentLowat), fault);
     const auto peer = socket.remote_endpoint(fault);

@@ -10,8 +10,8 @@ namespace oval4d::net {
 
 namespace {
 
-/// Returns the length of "http://" or "https://" at the beginning of the text, in any case; 0 if the text begins with
-/// neither.
+/// Returns the length of "http://" or "https://" at the beginning of the text, in upper or lower case; 0 if the text
+/// begins with neither.
 std::size_t urlSchemeLength(std::string_view text) {
     for (const std::string_view scheme : {"http://", "https://"}) {
         const auto lower = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 'a' - 'A') : c; };
@@ -20,8 +20,8 @@ std::size_t urlSchemeLength(std::string_view text) {
     return 0;
 }
 
-/// Removes and returns the text before the first separator, and also removes the separator. Without a separator,
-/// removes and returns the whole text.
+/// Removes the text before the first `separator` and the separator itself, and returns this text. If there is no
+/// separator, removes and returns the whole text.
 std::string_view takeUntil(std::string_view& text, char separator) {
     const std::size_t at = text.find(separator);
     const std::string_view head = text.substr(0, at);

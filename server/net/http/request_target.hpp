@@ -17,8 +17,8 @@ struct RequestTarget {
 };
 
 /// Parses a request target such as "/path?name=value&…" (origin form) or "http://host:port/path?…" (absolute form; RFC
-/// 9112, section 3.2). Decodes percent escapes; see session::parseQuery(). Returns an empty optional if an escape is
-/// malformed, the authority is invalid, or the path does not begin with a slash.
+/// 9112, section 3.2). Decodes percent escapes, those of the query as session::parseQuery() does. Returns an empty
+/// optional if an escape is malformed, the authority is invalid, or the path does not begin with a slash.
 std::optional<RequestTarget> parseRequestTarget(std::string_view text);
 
 }  // namespace oval4d::net

@@ -19,7 +19,7 @@ using http::field;
 namespace {
 
 /// Returns whether the key is 16 bytes in base64: 22 digits and two padding characters. The last digit encodes only two
-/// bits.
+/// bits, so only four digits are possible there (kLast).
 bool isWebSocketKey(std::string_view key) {
     constexpr std::size_t kLength = 24, kDigits = 22;
     constexpr std::string_view kLast = "AQgw";

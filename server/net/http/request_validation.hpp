@@ -26,9 +26,9 @@ enum class RequestBodyRule : bool {
     required,  ///< the header must state the length of the body
 };
 
-/// Validates a request header. Returns an empty optional if the header is valid. It then has at most one of each of the
-/// fields Host, Origin and Content-Length, and announces no chunked body. After a refusal, the caller must close the
-/// connection, because a proxy may disagree about where the request ends (request smuggling).
+/// Validates a request header. Returns an empty optional if the header is valid. A valid header has at most one of each
+/// of the fields Host, Origin and Content-Length, and announces no chunked body. After a refusal, the caller must close
+/// the connection, because a proxy may disagree about where the request ends (request smuggling).
 std::optional<HttpError> validateHeader(const HttpRequest& request, RequestBodyRule body);
 
 /// Returns the length of the body in bytes, as a valid header announces it; 0 if there is no body. Lengths above the

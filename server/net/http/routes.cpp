@@ -36,7 +36,7 @@ Error pathNotFoundError(const std::string& path) {
     return {ErrorCode::not_found, "there is nothing at the path " + text::inQuotes(path)};
 }
 
-/// Parses a number of pixels. `name` is the query parameter's name, for the error message.
+/// Parses a number of pixels. `name` is the name of the query parameter, for the error message. Errors: `out_of_range`.
 Result<int> parsePixels(const std::string& name, const std::string& text) {
     int value = 0;
     const std::string_view number = text::trimmed(text);
@@ -54,8 +54,8 @@ double residentBytes() {
     return resident * static_cast<double>(sysconf(_SC_PAGESIZE));
 }
 
-/// Removes `width` and `height` from a query. Returns the picture size that they describe, after checking it against
-/// the limits.
+/// Removes `width` and `height` from a query, and returns the picture size that they describe. A missing one has its
+/// default value. Errors: `out_of_range` if a value is not a number, or the size is not within `limits`.
 Result<scene::Viewport> takeViewport(session::QueryParameters& query, const pipeline::FrameLimits& limits) {
     scene::Viewport viewport = pipeline::defaultViewport(limits);
     session::QueryParameters rest;
@@ -96,7 +96,7 @@ std::function<std::optional<SharedBytes>(pipeline::Pipeline&)> frameJob(const se
                                                                         const ClientAccountPtr& client,
                                                                         Metrics& metrics) {
     return [state, viewport, client, &metrics](pipeline::Pipeline& pipeline) -> std::optional<SharedBytes> {
-        // Reserves the bytes of the pixels until the size of the file is known. A PNG file is rarely larger.
+        // Reserves the bytes of the pixels until the size of the PNG file is known. The file is rarely larger.
         auto held = client->byteAccount().reserve(image::byteCount(viewport.width, viewport.height));
         if (!held) return std::nullopt;
         std::vector<std::uint8_t> png;
@@ -109,8 +109,8 @@ std::function<std::optional<SharedBytes>(pipeline::Pipeline&)> frameJob(const se
     };
 }
 
-/// The content security policy of the web client. The page loads files only from its own server and connects only to
-/// it. Pictures that the page offers for download are blobs.
+/// The content security policy of the web client. The page loads files only from its own server, and connects only to
+/// this server. `blob:` is for pictures that the page offers for download.
 constexpr const char* kContentSecurityPolicy =
     "default-src 'none'; script-src 'self'; worker-src 'self'; style-src 'self'; img-src 'self' blob: data:; "
     "connect-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'self'";
@@ -168,7 +168,8 @@ asio::awaitable<HttpReply> Routes::answer(ParsedRequest request) {
 }
 
 /// Returns the state that a query describes. `others` are the names of further parameters that the query may have. If
-/// the polytope of the state must be built, a worker builds it. Throws what runOnPool() throws.
+/// the polytope of the state must be built, a worker builds it. Errors: those of session::stateFromQuery(); `too_many`
+/// if the client's byte account has no room for the polytope. Throws the exceptions of runOnPool().
 asio::awaitable<Result<session::State>> Routes::state(session::QueryParameters query,
                                                       std::span<const std::string_view> others,
                                                       ClientAccountPtr client) {

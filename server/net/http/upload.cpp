@@ -24,7 +24,8 @@ namespace {
 constexpr std::string_view kSessions = "/api/v1/sessions/", kFields = "/fields/", kMoments = "/moments",
                            kState = "/state";
 
-// Bytes to reserve in advance of the received bytes. The byte account is then not locked for each small part of a body.
+// The number of bytes that are reserved beyond those received, so that the byte account is not locked for each small
+// part of a body.
 constexpr std::size_t kReserved = 1U << 20U;
 
 const Error kNoUpload{ErrorCode::not_found,
@@ -147,7 +148,7 @@ std::optional<Error> UploadedBody::append(std::string_view bytes) {
 
 std::shared_ptr<const fields::FileHandle> UploadedBody::finish() {
     reservedFile_->bytes.forceResize(size_);
-    // The process that reads the file can then no longer change its size.
+    // The seals prevent the process that will read the file from changing the size of the file.
     fcntl(reservedFile_->file.descriptor(), F_ADD_SEALS, F_SEAL_SHRINK | F_SEAL_GROW | F_SEAL_SEAL);
     return {reservedFile_, &reservedFile_->file};
 }

@@ -21,12 +21,12 @@ namespace oval4d::net {
 
 /// The parsed header of an upload, without the uploaded file.
 struct UploadRequest {
-    std::string session;                      ///< id of the session
+    std::string session;                      ///< id of the session to change
     std::optional<session::LoadObject> load;  ///< how to load the uploaded field; empty if the file contains a state
 };
 
-/// Returns whether requests with this method and path upload a file, and therefore have a body. These are PUT and POST
-/// to paths that begin with /api/v1/sessions/.
+/// Returns whether a request with this method and path uploads a file, and therefore has a body. Uploads are PUT and
+/// POST to paths that begin with /api/v1/sessions/.
 bool isUpload(std::string_view method, std::string_view path);
 
 /// Parses an upload, for which isUpload() must be true. There are three kinds:
@@ -34,17 +34,18 @@ bool isUpload(std::string_view method, std::string_view path);
 /// - POST …/fields/{name}/moments adds time steps to a loaded field;
 /// - PUT …/state restores the state in the uploaded picture or `state` message.
 ///
-/// The query of the first two may have `format`, `axes`, `box`, `variable`, `values` and `values_variable`; the query
-/// of the third must be empty. The server's `token` in a query is ignored. Errors: `not_found` for any other path;
-/// `unsupported_format` if the format is not an array format; `bad_message` for an unknown or repeated name in the
-/// query; those of session::parseBox() and session::checkLoad().
+/// The query of the first two kinds may have `format`, `axes`, `box`, `variable`, `values` and `values_variable`; the
+/// query of the third must be empty. A parameter `token`, the token of the server, is ignored. Errors: `not_found` for
+/// any other path; `unsupported_format` if the format is not an array format; `bad_message` for an unknown or repeated
+/// name in the query; those of session::parseBox() and session::checkLoad().
 Result<UploadRequest> parseUpload(std::string_view method, const RequestTarget& target, const session::Limits& limits);
 
 /// The maximum size of an uploaded picture or `state` message, in bytes. The largest picture that oval4d makes is
 /// smaller.
 inline constexpr std::size_t kMaxStateFile = std::size_t{64} << 20U;
 
-/// The result of parsing an uploaded state: the command that restores it, or an error. Empty before the file is parsed.
+/// The result of parsing an uploaded state: the command that restores the state, or an error. Empty before the file is
+/// parsed.
 using ParsedStateFile = std::optional<Result<session::ChangeSettings>>;
 /// Returns a job for a worker pool that parses an uploaded file with a state. `maxMessage` is the maximum size of the
 /// `state` message in the file, in bytes. Errors: those of wire::setCommandFromFile(); `bad_field` if the file is

@@ -46,7 +46,7 @@ std::string etagOf(const std::string& content) {
     return fmt::format("\"{:016x}\"", crc.checksum());
 }
 
-/// Returns the content coding for the extension of a file name; an empty string for an uncompressed file.
+/// Returns the content coding of a file, judged by the extension of its name; an empty string for an uncompressed file.
 std::string_view contentCodingOf(const std::filesystem::path& path) {
     const std::string extension = path.extension().string();
     return extension == ".br" ? "br" : extension == ".gz" ? "gzip" : "";
@@ -63,7 +63,8 @@ HttpRepresentation readRepresentation(const std::filesystem::path& path, std::st
 double codingWeight(std::string_view coding, std::string_view acceptEncoding) {
     namespace http = boost::beast::http;
     const bool identity = coding == kIdentity;
-    double any = identity ? 0.0005 : 0;  // an unlisted coding is unacceptable, except identity as a last resort
+    // The weight of a coding that the field does not list: unacceptable, except identity as a last resort.
+    double any = identity ? 0.0005 : 0;
     for (const auto& [name, parameters] : http::ext_list({acceptEncoding.data(), acceptEncoding.size()})) {
         double weight = 1;
         for (const auto& [key, value] : parameters)

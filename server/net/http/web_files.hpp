@@ -24,7 +24,8 @@ struct WebFile {
     std::vector<HttpRepresentation> representations;
 
     /// Returns the representation that the header field Accept-Encoding prefers (RFC 9110, section 12.5.3). Among
-    /// equally preferred ones, returns the smallest. Returns the uncompressed one if the field accepts none.
+    /// equally preferred representations, returns the smallest. If the field accepts none, returns the uncompressed
+    /// one.
     const HttpRepresentation& negotiate(std::string_view acceptEncoding) const;
 };
 

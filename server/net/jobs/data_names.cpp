@@ -12,7 +12,7 @@ namespace {
 
 using Names = std::vector<std::string>;
 
-constexpr Seconds kListing{0.002};  // a rough estimate of the time to read the folder
+constexpr Seconds kListing{0.002};  // the estimated time to list the data folder, for the worker pool
 
 std::function<Names(std::size_t worker)> listNamesJob(const DataFolder& data) {
     return [&data](std::size_t /*worker*/) { return data.entryNames(); };

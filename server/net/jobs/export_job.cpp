@@ -10,7 +10,7 @@ namespace oval4d::net {
 namespace {
 
 /// Counts an exported file in Metrics::filesUnderWay while this object exists. If markSucceeded() was called, the
-/// destructor records how long the file took.
+/// destructor records how long this object existed as the time to make the file.
 class ScopedFileMetrics {
   public:
     explicit ScopedFileMetrics(Metrics& metrics) : metrics_(metrics) { metrics_.filesUnderWay.Increment(); }

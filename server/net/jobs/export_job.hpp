@@ -23,8 +23,8 @@ struct FinishedExport {
 using ExportResult = std::optional<Result<FinishedExport>>;
 
 /// Returns a job that makes the requested file. The file's bytes stay reserved on the client's byte account until the
-/// last copy of FinishedExport::bytes is destroyed. Errors: those of pipeline::exportFile(); `too_many` means that the
-/// byte account has no room for the file.
+/// last copy of FinishedExport::bytes is destroyed. Errors of the job: those of pipeline::exportFile(), of which
+/// `too_many` means that the byte account has no room for the file.
 std::function<ExportResult(std::size_t worker)> exportJob(Services services, const scene::PictureRequest& picture,
                                                           const exports::ExportRequest& request,
                                                           const ClientAccountPtr& client);

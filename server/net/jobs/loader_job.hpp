@@ -10,8 +10,8 @@
 
 namespace oval4d::net {
 
-/// Returns a job that does the work that `loader` has deferred (see ObjectLoader::completePending()). A request of
-/// `stop` ends a search for critical values of w early.
+/// Returns a job that does the work that `loader` has deferred (see ObjectLoader::completePending()). If the work is a
+/// search for critical values of w, a stop request through `stop` ends it early.
 inline std::function<std::monostate(std::size_t worker)> loaderJob(const std::shared_ptr<session::ObjectLoader>& loader,
                                                                    std::stop_token stop = {}) {
     return [loader, stop = std::move(stop)](std::size_t /*worker*/) {

@@ -15,11 +15,11 @@
 
 namespace oval4d::net {
 
-/// Queues `work` in `jobQueue` of `pool`, suspends the coroutine until a worker has run it, and returns its result.
-/// `pool` is a parallel::WorkerPool or a pipeline::PipelinePool. `cost` is the estimated running time of `work`. The
-/// coroutine resumes on its own executor. Throws the exception of `work`, or QueueFull if the pool rejects the job.
-/// Create `work` in an ordinary function, not in a coroutine: GCC 12 destroys the captures of a lambda in a coroutine
-/// twice.
+/// Queues the function `work` in the job queue `jobQueue` of `pool`, suspends the coroutine until a worker has run
+/// `work`, and returns the result of `work`. `pool` is a parallel::WorkerPool or a pipeline::PipelinePool. `cost` is
+/// the estimated running time of `work`. The coroutine resumes on its own executor. Throws the exception of `work`, or
+/// QueueFull if the pool rejects the job. Create `work` in an ordinary function, not in a coroutine: GCC 12 destroys
+/// the captures of a lambda in a coroutine twice.
 template <typename Value, typename Pool>
 boost::asio::awaitable<Value> runOnPool(Pool& pool, std::function<Value(typename Pool::JobArgument)> work,
                                         parallel::WorkerPool::JobQueuePtr jobQueue,

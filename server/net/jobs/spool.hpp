@@ -7,9 +7,9 @@
 
 namespace oval4d::net {
 
-/// Writes `bytes` to an unnamed temporary file and returns a memory mapping of the file. The system can then evict its
-/// pages when memory is scarce. The file is in `folder`; an empty `folder` means the system's temporary folder. Data of
-/// less than 1 MiB stay in memory, and so do larger data if the file cannot be written.
+/// Writes `bytes` to an unnamed temporary file, and returns a memory mapping of the file. When memory is scarce, the
+/// system can evict the pages of the file. The file is in `folder`; an empty `folder` means the system's temporary
+/// folder. Data of less than 1 MiB stay in memory, and so do larger data if the file cannot be written.
 SharedBytes spool(std::string bytes, const std::string& folder);
 
 }  // namespace oval4d::net

@@ -14,12 +14,12 @@ namespace oval4d::net {
 /// A queued or running search for critical values of w, which can be stopped.
 class CriticalValueSearch {
   public:
-    /// `by` is the connection that has requested the search; null for LiveSession::apply(). `workersStop` is the stop
-    /// token of the workers: stopping the workers also stops the search.
+    /// `by` is the connection that has requested the search, or null if LiveSession::apply() has requested it.
+    /// `workersStop` is the stop token of the workers: when the workers are stopped, the search is stopped, too.
     CriticalValueSearch(std::weak_ptr<Peer> by, const session::State& state, std::stop_token workersStop);
 
     bool isRequestedBy(const std::shared_ptr<Peer>& peer) const { return by_.lock() == peer; }
-    /// Returns the data that determine the result of the search.
+    /// Returns the parts of the state that determine the result of the search.
     const session::CriticalSearchArguments& arguments() const { return arguments_; }
     std::stop_token stopToken() const { return stop_.get_token(); }
     void stop() { stop_.request_stop(); }
@@ -38,19 +38,19 @@ class CriticalValueSearch {
 /// All searches of one session. Not thread-safe.
 class CriticalValueSearches {
   public:
-    /// Registers a search for the critical values of w of a state. The caller must run the search, and must keep the
-    /// returned pointer until the search ends.
+    /// Registers a search for the critical values of w of the object in `state`. The caller must run the search, and
+    /// must keep the returned pointer until the search ends. `by` and `workersStop`: see CriticalValueSearch.
     std::shared_ptr<CriticalValueSearch> add(const std::shared_ptr<Peer>& by, const session::State& state,
                                              std::stop_token workersStop);
-    /// Stops the searches that this connection has requested.
+    /// Stops the searches that the connection `by` has requested.
     void stop(const std::shared_ptr<Peer>& by);
-    /// Stops the searches whose results this state does not need, because their arguments() differ.
+    /// Stops the searches whose results `state` does not need, because their arguments() differ from those of `state`.
     void stopUnneededSearches(const session::State& state);
 
   private:
     std::vector<std::shared_ptr<CriticalValueSearch>> runningSearches() const;
 
-    std::vector<std::weak_ptr<CriticalValueSearch>> searches_;  // ended searches are removed when a search is added
+    std::vector<std::weak_ptr<CriticalValueSearch>> searches_;  // add() removes searches that have ended
 };
 
 }  // namespace oval4d::net

@@ -1,5 +1,5 @@
 #pragma once
-// Decides when the pictures of fields are drafts (pictures of lower quality that are made faster).
+// Decides when the pictures of fields are drafts: pictures of lower quality, which are made faster.
 
 #include <chrono>
 #include <optional>
@@ -7,8 +7,8 @@
 namespace oval4d::net {
 
 /// Detects quick changes of a session. During quick changes, pictures of a field are drafts (slicing::Quality::draft).
-/// A period of quick changes begins with a change that follows the previous one within kBurst. It ends when the session
-/// has not changed for kRest, or with a change that follows later than kBurst.
+/// A period of quick changes begins with a change that comes less than kBurst after the previous change. The period
+/// ends when the session has not changed for kRest, or with a change that comes at least kBurst after the previous one.
 class DraftTiming {
   public:
     using Clock = std::chrono::steady_clock;
@@ -25,13 +25,14 @@ class DraftTiming {
     }
     /// Begins a period of quick changes, however long ago the previous change was.
     void beginQuickChanges() { isQuick_ = true; }
-    /// Ends the period of quick changes if the session has not changed for kRest.
+    /// Ends the period of quick changes if the session has not changed for kRest before `now`.
     void endIfRested(Clock::time_point now) { isQuick_ = isQuick_ && now < restEndTime(); }
 
     bool hasQuickChanges() const { return isQuick_; }
     /// Returns the time at which the session reached its current revision.
     Clock::time_point lastChangeTime() const { return changed_; }
-    /// Returns the time from which endIfRested() ends a period of quick changes, provided that no change comes before.
+    /// Returns the time from which endIfRested() ends a period of quick changes, provided that no change comes before
+    /// this time.
     Clock::time_point restEndTime() const { return changed_ + kRest; }
 
   private:

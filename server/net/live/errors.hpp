@@ -17,10 +17,10 @@ namespace oval4d::net {
 /// answers no request.
 void sendError(Peer& peer, Metrics& metrics, const Error& error, std::optional<double> id);
 
-/// Returns the error that a client gets after work for it has failed with `why`. The work was to make a picture, a file
-/// or critical values of w, or to apply a command. Returns `bad_field` if the file of the state's field can no longer
-/// be read, `too_large` if the slices have too many edges, and otherwise `otherwise`. Logs the failure unless it
-/// returns `too_large`.
+/// Returns the error to send to a client after work for the client has failed with the exception `why`. The work was to
+/// make a picture or a file, to find critical values of w, or to apply a command. Returns `bad_field` if the file of
+/// the field in `state` can no longer be read, `too_large` if the slices have too many edges, and otherwise
+/// `otherwise`. Logs the failure with `sessionId` and `revision`, except one with `too_large`.
 Error logAndClassifyFailure(const session::State& state, const std::string& sessionId, std::uint64_t revision,
                             const std::exception& why, const Error& otherwise);
 

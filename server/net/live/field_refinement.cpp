@@ -19,7 +19,8 @@ namespace asio = boost::asio;
 
 namespace {
 
-// Returns whether the object is this level of an image. After a file was replaced, an image may have other levels.
+// Returns whether the object is the level `level` of a multiscale image. After a file was replaced, an image may have
+// other levels.
 bool isImageLevel(const slicing::Object& object, std::uint32_t level) {
     const fields::Field* const field = slicing::fieldIn(object);
     return field != nullptr && field->imageLevel.levels > 0 && field->imageLevel.level == level;
@@ -45,7 +46,8 @@ void FieldRefinement::update() {
     asio::co_spawn(strand_, refine(shared_from_this()), asio::detached);
 }
 
-/// Returns how to load the level to read next. Returns an empty optional if there is no further level or no client.
+/// Returns the command that loads the next finer level. Returns an empty optional if there is no finer level or no
+/// client.
 std::optional<session::LoadObject> FieldRefinement::nextLoadCommand() const {
     if (!hasClients_()) return {};
     return session::loadCommandForFinerLevel(metered_->value.current);

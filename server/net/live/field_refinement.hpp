@@ -17,18 +17,18 @@ namespace oval4d::net {
 
 /// Reads the finer levels of the image that a session shows, one after another (see
 /// fields::MultiscaleImageLevel::finer). Each level replaces the one before it (see session::replaceField()). Reading
-/// ends when the session shows another object, when its last client leaves, or when a level cannot be read; the present
-/// level then stays. Reading begins again when the image is shown again or a client comes. Every function runs on the
-/// session's strand.
+/// ends when the session shows another object, when its last client leaves, or when a level cannot be read; the session
+/// then keeps the level that it has. Reading begins again when the image is shown again or a client comes. Every
+/// function runs on the session's strand.
 class FieldRefinement : public std::enable_shared_from_this<FieldRefinement> {
   public:
-    /// A function that reads the object that `load` describes. It may throw parallel::Canceled after a request of
-    /// `stop`.
+    /// A function that reads the object that `load` describes. It may throw parallel::Canceled after `stop` has
+    /// requested a stop.
     using Reader =
         std::function<boost::asio::awaitable<Result<slicing::Object>>(session::LoadObject load, std::stop_token stop)>;
 
-    /// `metered` is the session. `hasClients` tells whether clients are connected to it. `refined` is called each time
-    /// this object has changed the session.
+    /// `metered` is the session, and `strand` is its strand. `hasClients` tells whether clients are connected to the
+    /// session. `read` reads the levels. `refined` is called each time that a finer level has replaced a coarser one.
     FieldRefinement(boost::asio::any_io_executor strand, std::shared_ptr<MeteredSession> metered,
                     std::function<bool()> hasClients, Reader read, std::function<void()> refined);
 

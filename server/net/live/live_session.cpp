@@ -138,9 +138,10 @@ asio::awaitable<std::optional<Result<LiveSession::CommandResult>>> LiveSession::
     co_return applied;
 }
 
-/// Applies a command. Slow work runs on a worker; later messages of this client wait for it, messages of other clients
-/// do not. If several servers share the store and `awaitStore` is true, returns only after the store has the result,
-/// because a command must not be acknowledged before.
+/// Applies a command of the client `by`. `peer` is the client's connection, or null. Slow work runs on a worker; later
+/// messages over this connection wait for the work, those of other connections do not. If several servers share the
+/// store and `awaitStore` is true, returns only after the store has the result, because a command must not be
+/// acknowledged before.
 asio::awaitable<Result<LiveSession::CommandResult>> LiveSession::applyCommand(ClientAccountPtr by,
                                                                               std::shared_ptr<Peer> peer,
                                                                               const session::Command& command,
@@ -210,8 +211,8 @@ asio::awaitable<void> LiveSession::executeAndAnswer(std::shared_ptr<Peer> peer, 
     co_return;
 }
 
-// This function is last in the file, because it uses the specializations of executeAndAnswer(), which must be declared
-// before.
+// This function is last in the file, because the specializations of executeAndAnswer(), which it uses, must be declared
+// before it.
 asio::awaitable<void> LiveSession::executeOnStrand(std::shared_ptr<Peer> peer, wire::Request request) {
     assertOnStrand();
     // The body is moved, because the body of a `load` message may be large.

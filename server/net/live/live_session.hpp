@@ -46,9 +46,9 @@ class LiveSession : public std::enable_shared_from_this<LiveSession> {
 
     const store::SessionCredentials& credentials() const { return credentials_; }
 
-    /// Adds a client to the session; if it was added before, changes its stream. Sends the client the message
-    /// `welcome`, then the state and a picture. If another server has taken over the session, closes the client's
-    /// connection instead.
+    /// Adds a client to the session. If the client was added before, changes the pictures that it receives. Sends the
+    /// client the message `welcome`, then the state and a picture. If another server has taken over the session, closes
+    /// the client's connection instead.
     boost::asio::awaitable<void> addAndWelcome(std::shared_ptr<Peer> peer, wire::Hello hello, RequestId id);
 
     /// Executes a request of a client that addAndWelcome() has added. Returns when the request is answered. A request
@@ -68,10 +68,10 @@ class LiveSession : public std::enable_shared_from_this<LiveSession> {
     boost::asio::awaitable<std::optional<Result<CommandResult>>> apply(ClientAccountPtr client,
                                                                        session::Command command);
 
-    /// Removes the client `peer` (nobody if it is null), then calls `left` with the session's value, both on the
-    /// session's strand. `left` must return whether the session has no clients left; if so, this object never writes
-    /// the session to the store again. Must be called after the client's requests have been executed, so that the value
-    /// contains their results.
+    /// Removes the client `peer`, or nobody if `peer` is null. Then calls `left` with the session's value. Both happen
+    /// on the session's strand. `left` must return whether the session has no clients left; if so, this object never
+    /// writes the session to the store again. Must be called after the client's requests have been executed, so that
+    /// the value contains their results.
     void leave(std::shared_ptr<Peer> peer, std::function<bool(const session::Session&)> left);
 
     /// Stops the searches for critical values of w that `peer` has requested. Their requests fail with `canceled`.
@@ -88,7 +88,7 @@ class LiveSession : public std::enable_shared_from_this<LiveSession> {
   private:
     using Clock = SessionPublisher::Clock;
 
-    // The functions of this group run on the strand.
+    // The functions of this group run on the session's strand.
     void assertOnStrand() const {
         assert(strand_.running_in_this_thread() && "the session is used outside its strand");
     }

@@ -17,10 +17,11 @@ struct OutgoingMessage {
     bool binary = false;  ///< whether the message is binary; otherwise it is text
 };
 
-/// Makes an outgoing message from a text.
+/// Makes an outgoing text message.
 inline OutgoingMessage textMessage(std::string text) { return {SharedBytes(std::move(text)), false}; }
 
-/// Makes the outgoing message for an answer. `id` is the id of the answered request; empty if it has none.
+/// Makes the outgoing text message for an answer. `id` is the id of the answered request; empty if the request has
+/// none.
 inline OutgoingMessage textAnswer(const wire::Answer& answer, std::optional<double> id) {
     return textMessage(wire::answerMessage(answer, id));
 }

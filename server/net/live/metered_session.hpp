@@ -17,10 +17,10 @@ class MeteredSession {
 
     const ClientAccountPtr& client() const { return client_; }
 
-    /// Adjusts the reserved bytes to the memory that the session takes after a command. If they would exceed a limit on
-    /// the bytes held for clients, removes the older half of the undo steps. Then reserves the remaining memory, even
-    /// beyond the limit. `objectsChanged` tells whether the command may have added, removed or replaced objects of the
-    /// session.
+    /// Adjusts the number of reserved bytes to the memory that the session takes after a command. If this number would
+    /// exceed a limit on the bytes held for clients, removes the older half of the undo steps, and then reserves the
+    /// remaining memory even beyond the limit. `objectsChanged` tells whether the command may have added, removed or
+    /// replaced objects of the session.
     void adjustReservationOrTrimUndo(bool objectsChanged);
 
     session::Session value;

@@ -31,12 +31,14 @@ class ObjectLoading {
     session::ObjectLoader makeLoader() const;
 
     /// Does the work that `loader` has deferred, on a worker: builds or reads an object, or searches for critical
-    /// values of w (see slicing/critical/). An export worker runs such a search, and criticalSearches() can stop it.
-    /// `by` is the client in whose job queue the job waits. `peer` is the connection that needs the result; it may be
-    /// null. `stop` ends the reading of a file early, with parallel::Canceled. The caller must keep `loader` until the
-    /// function returns. Returns an error if there is no room for the result, else an empty optional. Throws
-    /// parallel::QueueFull if too many jobs are waiting, and rethrows what the job throws; the caller must not use the
-    /// loader after an exception.
+    /// values of w (see slicing/critical/). A search runs on an export worker, and criticalSearches() can stop it. `by`
+    /// is the client in whose job queue the job waits, unless a file is read: that job waits in the queue of the client
+    /// that opened the session. `peer` is the connection that needs the result; it may be null. `stop` ends the reading
+    /// of a file early, with parallel::Canceled. The caller must keep `loader` until the function returns.
+    ///
+    /// Returns the error `too_many` if the byte account of the session's client has no room for the result, else an
+    /// empty optional. Throws parallel::QueueFull if too many jobs are waiting, and the exceptions of the job. After an
+    /// exception, the caller must not use `loader`.
     boost::asio::awaitable<std::optional<Error>> completePending(ClientAccountPtr by, std::shared_ptr<Peer> peer,
                                                                  session::ObjectLoader& loader,
                                                                  std::stop_token stop = {});

@@ -9,14 +9,15 @@
 namespace oval4d::net {
 
 /// Tracks the pictures on their way to one client. A picture is sent (queued), then written to the socket, then shown
-/// by the client. At most kInFlight pictures may be sent but not yet shown. Two pictures keep the client busy, and are
-/// so few that the client shows hardly any outdated ones.
+/// by the client. At most kInFlight pictures may be sent but not yet shown. This number is enough to keep the client
+/// busy, and so small that the client shows hardly any outdated picture.
 class PicturePacing {
   public:
     using Clock = std::chrono::steady_clock;
     static constexpr std::size_t kInFlight = 2;
 
-    /// Returns whether one more picture may be sent. `pending` pictures are still being made, and count as sent.
+    /// Returns whether one more picture may be sent. `pending` is the number of pictures for the client that are still
+    /// being made; they count as sent.
     bool maySendMore(std::size_t pending = 0) const { return unshown_.size() + pending < kInFlight; }
     /// Returns the newest revision that was sent or skipped; an empty optional before the first.
     std::optional<std::uint64_t> newestRevisionSentOrSkipped() const { return newest_; }
@@ -42,7 +43,7 @@ class PicturePacing {
         std::uint64_t revision;
         std::optional<Clock::time_point> written;  // empty until the picture is written to the socket
     };
-    std::optional<std::uint64_t> newest_;
+    std::optional<std::uint64_t> newest_;  // the newest revision that was sent or skipped
     std::deque<UnshownPicture> unshown_;  // pictures sent but not shown, the oldest first
 };
 

@@ -21,11 +21,12 @@ class Peer {
     virtual void send(OutgoingMessage message, std::function<void()> written = {}) = 0;
 
     /// Returns the account of the client's IP address or network (see ClientAccount). The worker pools divide their
-    /// time among these accounts. Work for this connection counts as work for this account.
+    /// time among the accounts. Work for this connection counts as work for the returned account.
     virtual const ClientAccountPtr& client() const = 0;
 
     /// Makes the connection notice at once if its client leaves during the current request, and then call
-    /// LiveSession::stopSearches(). Without this call, the connection may notice this only after the request.
+    /// LiveSession::stopSearches(). Without this call, the connection may notice only after the request that its client
+    /// has left.
     virtual void watchForDisconnect() = 0;
 
     /// Closes the connection with a WebSocket close code, after all queued messages have been written.

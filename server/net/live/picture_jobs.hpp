@@ -10,8 +10,8 @@
 
 namespace oval4d::net {
 
-/// The picture jobs of a session. At most one job at a time is queued or being drawn. The next job may begin when the
-/// last picture of a job has been drawn, while this picture is being encoded. Not thread-safe.
+/// The picture jobs of a session. At most one job at a time is queued or being drawn. When the last picture of a job
+/// has been drawn, the next job may be queued, although this picture is still being encoded. Not thread-safe.
 class PictureJobs {
   public:
     /// A picture that has been drawn and is being encoded.
@@ -40,7 +40,7 @@ class PictureJobs {
         std::erase_if(encoding_, [&](const PictureBeingEncoded& each) { return each.job == job; });
     }
 
-    /// Returns how many pictures with this key are being encoded.
+    /// Returns how many pictures with the key `key` are being encoded.
     std::size_t countEncoding(const PictureStreamKey& key) const {
         return static_cast<std::size_t>(std::ranges::count(encoding_, key, &PictureBeingEncoded::streamKey));
     }
@@ -55,7 +55,7 @@ class PictureJobs {
   private:
     std::uint64_t jobs_ = 0;     // the number of jobs so far
     std::uint64_t drawing_ = 0;  // the number of the job that is queued or being drawn; 0 if there is none
-    std::vector<PictureBeingEncoded> encoding_;
+    std::vector<PictureBeingEncoded> encoding_;  // the last pictures of jobs that are not done
 };
 
 }  // namespace oval4d::net

@@ -27,7 +27,8 @@ using wire::StreamKind;
 
 namespace {
 
-/// The completion handler of a coroutine. It keeps the RequestAnswerer object alive until the coroutine has ended.
+/// A completion handler for a coroutine of RequestAnswerer. Keeps the RequestAnswerer alive until the coroutine has
+/// ended.
 struct AnswersLifetimeGuard {
     std::shared_ptr<RequestAnswerer> answers;
     void operator()(const std::exception_ptr& /*failure*/) const {}
@@ -258,8 +259,8 @@ asio::awaitable<void> RequestAnswerer::answerWithSample(std::shared_ptr<Peer> pe
     if (failed) sendError(*peer, services_.metrics, *failed, id);
 }
 
-/// Returns a job that finds the values of the current field at a point. The point is in the coordinates of the object's
-/// file, after the rotation.
+/// Returns a job that finds the values of the current field at `point`. This is a point of the rotated field. Its
+/// coordinates are measured from the origin of the object's file, not from that of the object.
 std::function<OutgoingMessage(pipeline::Pipeline&)> RequestAnswerer::sampleJob(const glm::dvec4& point,
                                                                                RequestId id) const {
     return [state = session_.current, point, askedRevision = revision(), id](pipeline::Pipeline& /*pipeline*/) {
@@ -269,8 +270,8 @@ std::function<OutgoingMessage(pipeline::Pipeline&)> RequestAnswerer::sampleJob(c
     };
 }
 
-/// Returns a job that makes a picture of the current state. If `point` is given, the job instead tells what the picture
-/// shows at this point.
+/// Returns a job that makes a picture of the current state. If `point`, a point of the picture in pixels, is given, the
+/// job instead makes the message that tells what the picture shows there.
 std::function<OutgoingMessage(pipeline::Pipeline&)> RequestAnswerer::requestedPictureJob(
     const PictureStreamKey& key, RequestId id, std::optional<glm::dvec2> point) const {
     const SessionSnapshotPtr known = publisher_->currentFullSnapshot();

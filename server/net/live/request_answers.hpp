@@ -27,13 +27,13 @@
 
 namespace oval4d::net {
 
-/// Answers questions about what a session shows and about the load of the server. Workers make answers that take long.
-/// Every function runs on the session's strand.
+/// Answers questions about what a session shows, and about how busy the server is. Answers that take long are made on
+/// workers. Every function runs on the session's strand.
 class RequestAnswerer : public std::enable_shared_from_this<RequestAnswerer> {
   public:
     using RequestId = std::optional<double>;  ///< empty if a request has no id
 
-    /// `sessionId` is for the log. `publisher` and `loading` belong to the session `metered`.
+    /// `sessionId` is for the log. `strand`, `publisher` and `loading` belong to the session `metered`.
     RequestAnswerer(Services services, SessionPublisher::Strand strand, std::string sessionId,
                     std::shared_ptr<MeteredSession> metered, std::shared_ptr<SessionPublisher> publisher,
                     std::shared_ptr<ObjectLoading> loading);

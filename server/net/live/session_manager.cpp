@@ -25,7 +25,7 @@ store::WriteBehindStore::WriteBehindSettings writeBehindSettings(const ServerOpt
 }
 
 /// Looks up the objects of a stored record (a store::ObjectLookup). Decodes each object when it is first requested.
-/// keys() returns the keys of the decoded objects.
+/// keysBySerial() returns the keys of the decoded objects.
 class RecordObjectDecoder {
   public:
     RecordObjectDecoder(const store::SessionRecord& record, store::DataFolderReader open) : open_(std::move(open)) {
@@ -50,9 +50,9 @@ class RecordObjectDecoder {
     std::map<std::string, std::optional<slicing::Object>> decoded_;
 };
 
-/// Returns the estimated time to decode the record of a session.
+/// Returns the estimated time to decode the stored record of a session.
 Seconds decodingCost(const store::SessionRecord& record) {
-    constexpr double kByte = 1e-7;
+    constexpr double kByte = 1e-7;  // seconds for each byte
     std::size_t bytes = record.whole.size() + record.head.size();
     for (const auto& [key, object] : record.objects) bytes += object.size();
     return Seconds(1e-4 + kByte * static_cast<double>(bytes));
@@ -159,9 +159,9 @@ void SessionManager::join(const store::SessionCredentials& credentials, const Cl
                           WriteBehindStore::FetchResult fetch) { self->onRecordRead(pending, std::move(fetch)); });
 }
 
-/// Handles a session that was read from the store. Runs on the thread of the write-behind store. The session is claimed
-/// only after its record has been decoded. A session that this server cannot open is therefore not written, and stays
-/// with the server that has it open.
+/// Handles a session that was read from the store. Runs on the thread of the write-behind store. This server claims the
+/// session only after the session's record has been decoded. So it does not take over a session that it cannot open:
+/// such a session stays with the server that has it open.
 void SessionManager::onRecordRead(const PendingJoin& pending, WriteBehindStore::FetchResult fetch) {
     if (!fetch) {
         finishOpening(pending, fetch.error());
@@ -173,7 +173,8 @@ void SessionManager::onRecordRead(const PendingJoin& pending, WriteBehindStore::
     }
 }
 
-/// Makes a worker decode a record. Decoding here would block the thread of the write-behind store.
+/// Makes a worker decode a record, because decoding here would block the thread of the write-behind store. `ownership`
+/// tells whether this server has claimed the session.
 void SessionManager::startDecoding(const PendingJoin& pending, std::shared_ptr<const store::SessionRecord> record,
                                    ClaimState ownership) {
     const Seconds cost = decodingCost(*record);
@@ -194,7 +195,8 @@ void SessionManager::decode(const PendingJoin& pending, const std::shared_ptr<co
                             ClaimState ownership) {
     const store::SessionRecord& record = *stored;
     const std::string& id = pending.credentials.id;
-    bool isUnread = false, mustWait = false;  // whether a file was not read, and whether it may be readable later
+    // Whether a file to which the record refers was not read, and whether this file may be readable later.
+    bool isUnread = false, mustWait = false;
     try {
         RecordObjectDecoder objects(record, [&](const session::LoadObject& load) -> Result<slicing::Object> {
             isUnread = mustWait = true;  // both stay true if the reader throws an exception, as when the server stops
@@ -247,8 +249,8 @@ void SessionManager::claim(const PendingJoin& pending, const std::shared_ptr<con
                                });
 }
 
-/// Handles a claimed session. Runs on the thread of the write-behind store. If another server has saved the session
-/// since its record was read, the new record is decoded.
+/// Handles a session that this server has claimed. Runs on the thread of the write-behind store. If another server has
+/// saved the session since its record was read, the newer record is decoded.
 void SessionManager::onClaimed(const PendingJoin& pending, const DecodedRecord& decoded,
                                WriteBehindStore::FetchResult fetch) {
     if (!fetch) {

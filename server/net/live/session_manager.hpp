@@ -53,7 +53,7 @@ class SessionManager : public std::enable_shared_from_this<SessionManager> {
         std::shared_ptr<LiveSession> session;
         int clients = 0;  // the session is closed when the number reaches 0
     };
-    // A call of join() that waits until the session is fetched from the store.
+    // The arguments of a call of join() that waits until the session is fetched from the store.
     struct PendingJoin {
         store::SessionCredentials credentials;
         ClientAccountPtr client;
@@ -64,7 +64,7 @@ class SessionManager : public std::enable_shared_from_this<SessionManager> {
     std::shared_ptr<LiveSession> find(const std::string& id) const;
     std::optional<Error> admitSessionMakingRoom(ClientAccount& client);
     void evict(const std::string& id);
-    // The stored record of a session, with the decoded session.
+    // The stored record of a session, with the decoded session and the keys of the session's objects in the store.
     struct DecodedRecord {
         std::shared_ptr<const store::SessionRecord> record;
         session::Session value;

@@ -80,7 +80,7 @@ void SessionPublisher::pictureShown(const Peer& peer, std::uint64_t ofRevision) 
 void SessionPublisher::sendAndRequestPictures() {
     assertOnStrand();
     advanceMotion();
-    if (state_ && state_->revision != revision()) state_.reset();  // it may keep dropped objects alive
+    if (state_ && state_->revision != revision()) state_.reset();  // an old state may keep dropped objects alive
     std::vector<PictureStreamKey> missing;
     bool allServed = true;
     const slicing::Quality wanted = wantedQuality();
@@ -118,9 +118,9 @@ slicing::Quality SessionPublisher::wantedQuality() const {
                                                                          : slicing::Quality::full;
 }
 
-/// Schedules pictures of full quality for the end of the period of quick changes (DraftTiming::restEndTime()).
-/// wantedQuality() stays `draft` until the timer expires. The draft is then made even if the server was too busy to
-/// make it earlier.
+/// Schedules pictures of full quality for the end of the period of quick changes (DraftTiming::restEndTime()). Only the
+/// timer ends this period. So wantedQuality() returns `draft` until the timer expires, and a draft is requested first
+/// even if the server was too busy to request it before restEndTime().
 void SessionPublisher::scheduleRefinement() {
     if (session_.current.isMoving()) return;
     refineTimer_.startUnlessRunning(weak_from_this(), draftTiming_.restEndTime(), [](SessionPublisher& publisher) {
@@ -129,8 +129,8 @@ void SessionPublisher::scheduleRefinement() {
     });
 }
 
-/// Makes the next step of a motion (see session::advanceMotionBy()), if the step is due. Waits until a client has the
-/// current revision and can receive the next one.
+/// Makes the next step of a motion (see session::advanceMotionBy()) if the step is due, and if a client has the current
+/// revision and can receive the next one. Otherwise, does not make the step yet.
 void SessionPublisher::advanceMotion() {
     assertOnStrand();
     if (!session_.current.isMoving()) {
@@ -149,7 +149,7 @@ void SessionPublisher::advanceMotion() {
     }
     const std::uint64_t before = revision();
     session::advanceMotionBy(session_, Seconds(*passed).count());
-    if (revision() == before) return;  // turning by the angle 0 changes nothing, so no next step is scheduled
+    if (revision() == before) return;  // for example, a turn by the angle 0; no next step is scheduled
     draftTiming_.recordChange(now);
     moved_();
 }
@@ -162,8 +162,8 @@ bool SessionPublisher::isReadyForNextPicture(const Subscriber& subscriber) const
                : subscriber.pacing.maySendMore(inProgress_.countEncoding(subscriber.streamKey));
 }
 
-/// Posts a job that makes these pictures, or replaces the job that is queued. Does nothing while a job's pictures are
-/// being drawn, because sendAndRequestPictures() is called again afterward.
+/// Queues a job that makes the pictures `wanted`. If a job is already queued, replaces what it makes. Does nothing
+/// while the pictures of a job are being drawn, because sendAndRequestPictures() is called again afterward.
 void SessionPublisher::requestPictures(std::vector<PictureStreamKey> wanted) {
     assertOnStrand();
     const slicing::Quality quality = wantedQuality();
@@ -189,8 +189,8 @@ void SessionPublisher::requestPictures(std::vector<PictureStreamKey> wanted) {
     }
 }
 
-/// Returns the client in whose job queue a job for the pictures `wanted` waits. A job uses up its client's share of the
-/// workers, so clients that receive the same pictures take turns.
+/// Returns the client in whose job queue a job for the pictures `wanted` waits. The job counts against this client's
+/// share of the workers, so the clients that receive these pictures take turns.
 const SessionPublisher::Subscriber& SessionPublisher::subscriberToCharge(
     const std::vector<PictureStreamKey>& wanted) const {
     std::vector<const Subscriber*> payers;
@@ -244,9 +244,8 @@ void SessionPublisher::onLastPictureDrawn(const RevisionPicturesJob& job, const 
     });
 }
 
-/// Sends the pictures that a worker has made, even if the session has changed since. The pictures are newer than those
-/// that the clients have. During very frequent changes, clients therefore see every picture that the workers have time
-/// to make.
+/// Sends the pictures that a worker has made to each client that has only older ones, even if the session has changed
+/// since. So during very frequent changes, clients see every picture that the workers have time to make.
 void SessionPublisher::onPictureJobDone(RevisionPictures result) {
     assertOnStrand();
     inProgress_.recordDone(result.job);
@@ -323,8 +322,8 @@ bool SessionPublisher::storeStateIfCurrent(const SessionSnapshotPtr& state) {
     return true;
 }
 
-/// Makes a worker name the section of the current state, for clients without a stream. Does nothing if a worker is
-/// already doing so. The job waits in the job queue of `subscriber`.
+/// Makes a worker name the section of the current state, for clients that receive only states. Does nothing if a worker
+/// has already been asked for a state. The job waits in the job queue of `subscriber`.
 void SessionPublisher::requestState(const Subscriber& subscriber) {
     assertOnStrand();
     if (stateRequested_) return;
@@ -359,8 +358,8 @@ void SessionPublisher::onStateMade(const SessionSnapshotPtr& made) {
     sendAndRequestPictures();
 }
 
-/// Sends the state of `snapshot` to a client without a stream. Only one state at a time is on its way. If the state
-/// changes faster than the client's socket accepts messages, states in between are skipped.
+/// Sends the state of `snapshot` to a client that receives only states. Only one state at a time is on its way to a
+/// client. If the state changes faster than the client's socket accepts messages, states in between are skipped.
 void SessionPublisher::sendState(Subscriber& subscriber, const SessionSnapshot& snapshot) {
     const auto peer = subscriber.peer.lock();
     if (!peer) return;
@@ -380,8 +379,8 @@ void SessionPublisher::sendState(Subscriber& subscriber, const SessionSnapshot& 
                });
 }
 
-/// Starts a timer for the pictures that clients have not acknowledged. When it expires, assumeOverduePicturesShown()
-/// marks them as shown.
+/// Starts a timer for pictures that clients may never acknowledge. When the timer expires, assumeOverduePicturesShown()
+/// marks the overdue pictures as shown.
 void SessionPublisher::scheduleShownTimeout() {
     std::optional<Clock::time_point> first;
     for (const auto& [key, subscriber] : subscribers_) {

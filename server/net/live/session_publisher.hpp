@@ -33,9 +33,9 @@ namespace oval4d::net {
 /// Sends the states of a session, and pictures of them, to all its clients. Each client receives pictures of the newest
 /// state as fast as workers make them and the client shows them. At most one picture job of a session is queued or
 /// being drawn. It makes the pictures of one revision for all clients that can receive them; clients with equal
-/// StreamKeys share a picture. A newer state replaces the state of a queued job. While a picture is encoded, the next
-/// one may be drawn. While the object or the focus moves, the publisher makes one step whenever a client can receive
-/// the next picture. Every function runs on the session's strand.
+/// PictureStreamKeys share a picture. A newer state replaces the state of a queued job. While a picture is encoded, the
+/// next one may be drawn. While the object or the focus moves, the publisher makes one step whenever a client can
+/// receive the next picture. Every function runs on the session's strand.
 class SessionPublisher : public std::enable_shared_from_this<SessionPublisher> {
   public:
     using Strand = boost::asio::strand<boost::asio::io_context::executor_type>;
@@ -62,8 +62,8 @@ class SessionPublisher : public std::enable_shared_from_this<SessionPublisher> {
     /// Returns the kind of pictures that a client receives; null if the client was not added. The pointer is valid
     /// until the next addSubscriber() or remove().
     const PictureStreamKey* streamOf(const Peer& peer) const;
-    /// Returns the job queues of a client in this session. All connections of the client to the session share these
-    /// queues, so that several connections get no larger share of the workers.
+    /// Returns the job queues of the client `own` in this session. All connections of the client to the session share
+    /// these queues, so that several connections get no larger share of the workers than one.
     JobQueuesOfClient jobQueuesOf(const ClientAccountPtr& own) const;
     /// Closes the connections of all clients with a WebSocket close code and a reason.
     void closeAll(std::uint16_t code, const std::string& reason);
@@ -102,8 +102,9 @@ class SessionPublisher : public std::enable_shared_from_this<SessionPublisher> {
         JobQueuesOfClient jobQueues;
         PictureStreamKey streamKey;
         PicturePacing pacing;
-        slicing::Quality quality = slicing::Quality::full;  // quality of the newest sent picture
-        bool stateInFlight = false;  // whether a `state` message is queued but not written (only without a stream)
+        slicing::Quality quality = slicing::Quality::full;  // quality of the newest picture that was sent
+        bool stateInFlight = false;  // whether a `state` message is queued but not written; only if streamKey.stream is
+                                     // `none`
     };
     // A picture that could not be made, and the reason.
     using FailedPicture = std::pair<PictureStreamKey, Error>;

@@ -29,7 +29,7 @@ void SessionSaver::saveNow(store::SaveCallback written) {
 
 std::optional<SessionSaver::WriteFunction> SessionSaver::writeBeforeAcknowledgment(bool hasNewObject) {
     if (writeBehind_.writeTiming() != WriteTiming::at_once) return std::nullopt;
-    // The head of a record is saved without objects, so a new object requires that the whole session is saved.
+    // Saving only the head of a record saves no objects, so a change with a new object requires SaveScope::whole.
     return makeWriteFunction(hasNewObject ? SaveScope::whole : SaveScope::head);
 }
 

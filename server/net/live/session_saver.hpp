@@ -20,17 +20,17 @@ namespace oval4d::net {
 /// this class, and the functions that they return, must be called on the session's strand.
 class SessionSaver : public std::enable_shared_from_this<SessionSaver> {
   public:
-    /// The delay from a change to the save. The store must be at most one second behind the session, even on a busy
-    /// machine.
+    /// The delay from a change to the save. It is short, because the store must be at most one second behind the
+    /// session, even on a busy machine.
     static constexpr std::chrono::milliseconds kDelay{250};
 
     /// A function that hands a value of the session to the store. The store then calls `written`, as in
     /// WriteBehindStore::save().
     using WriteFunction = std::function<void(store::SaveCallback written)>;
 
-    /// `fence` is the number with which the session was created in the store or fetched from it (see
-    /// store::FencingToken). `session` is the session, which the caller changes on `strand`. `clock` measures the
-    /// delay.
+    /// `id` is the id of the session. `fence` is the number with which the session was created in the store or fetched
+    /// from it (see store::FencingToken). `session` is the session, which the caller changes on `strand`. `clock`
+    /// measures the delay.
     SessionSaver(store::WriteBehindStore& writeBehind, std::string id, store::FencingToken fence,
                  std::shared_ptr<const session::Session> session, const TimerClock& clock,
                  const boost::asio::any_io_executor& strand);
@@ -42,9 +42,10 @@ class SessionSaver : public std::enable_shared_from_this<SessionSaver> {
     /// stopSaving(), saves nothing and never calls `written`.
     void saveNow(store::SaveCallback written = {});
 
-    /// Returns a function that writes the present value of the session; an empty optional if a change need not be
-    /// written before it is acknowledged. `hasNewObject` tells whether the change has added or replaced an object. If
-    /// the session is detached when the function is called, it writes nothing, and calls its argument with `false`.
+    /// Returns a function that writes the present value of the session. Returns an empty optional if a change need not
+    /// be written before it is acknowledged. `hasNewObject` tells whether the change has added or replaced an object.
+    /// If stopSaving() was called before the function is called, the function writes nothing, and calls its argument
+    /// with `false`.
     std::optional<WriteFunction> writeBeforeAcknowledgment(bool hasNewObject);
 
     /// Makes this object never write the session to the store again.

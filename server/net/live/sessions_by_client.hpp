@@ -32,21 +32,20 @@ class SessionsByClient {
     /// Returns how many sessions of this client are open, or closed and not expired.
     std::size_t countSessionsOf(const std::string& client, Clock::time_point now);
 
-    /// Returns the id of the session that was closed first, among the closed sessions that were never changed.
-    /// Considers only sessions of `client`; sessions of all clients if `client` is null. Returns an empty optional if
-    /// there is no such session.
+    /// Among the closed sessions that were never changed, returns the id of the one that was closed first. If `client`
+    /// is not null, considers only sessions of this client. Returns an empty optional if there is no such session.
     std::optional<std::string> firstClosedUnmodified(Clock::time_point now, const std::string* client = nullptr);
 
   private:
     struct RecordedSession {
         std::string client;
-        std::uint64_t closed = 0;  // number in the order of closing, from 1; 0 while the session is open
+        std::uint64_t closed = 0;  // the session's number in the order of closing, from 1; 0 while it is open
         bool unmodified = false;
         Clock::time_point expires;  // when a closed session is forgotten
     };
     struct ClientSessions {
         std::size_t sessions = 0;
-        std::map<std::uint64_t, std::string> unmodified;  // unmodified closed sessions: ids by RecordedSession::closed
+        std::map<std::uint64_t, std::string> unmodified;  // the ids of closed unmodified sessions, in order of closing
     };
     using SessionsById = std::map<std::string, RecordedSession, std::less<>>;
 
@@ -57,9 +56,9 @@ class SessionsByClient {
     const Clock::duration expiry_;
     SessionsById sessions_;
     std::map<std::string, ClientSessions, std::less<>> clients_;  // by client name
-    std::map<std::uint64_t, std::string> closed_;                 // closed sessions: ids by RecordedSession::closed
-    std::map<std::uint64_t, std::string> unmodified_;  // unmodified closed sessions: ids by RecordedSession::closed
-    std::uint64_t last_ = 0;                           // the last value given to RecordedSession::closed
+    std::map<std::uint64_t, std::string> closed_;                 // the ids of closed sessions, in order of closing
+    std::map<std::uint64_t, std::string> unmodified_;             // the ids of closed sessions that were never changed
+    std::uint64_t last_ = 0;                                      // the last value given to RecordedSession::closed
 };
 
 }  // namespace oval4d::net

@@ -68,7 +68,7 @@ OutgoingMessage makePicture(pipeline::Pipeline& pipeline, const SessionSnapshot&
     if (key.scheme == scene::ColorScheme::light && picture.look.background == Background::automatic)
         picture.look.background = Background::light;
     if (key.stream == StreamKind::frames) {
-        SharedBytes stateText;  // the state stored in the PNG file; unlike `picture`, keeps the background `automatic`
+        SharedBytes stateText;  // the `state` message in the PNG file, in which a background `automatic` stays so
         if (key.background || key.highlight) {
             session::State state = snapshot.state;
             applyOverrides(state.look);

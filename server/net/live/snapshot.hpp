@@ -28,14 +28,14 @@ struct PictureStreamKey {
     scene::Viewport viewport;
     scene::ColorScheme scheme = scene::ColorScheme::dark;  ///< the colors of pictures whose background is `automatic`
     std::optional<scene::Background> background = {};      ///< replaces the session's background, if not empty
-    /// If the outer optional is not empty, the inner one replaces the highlighted element of the session (none if
-    /// empty).
+    /// If the outer optional is not empty, the inner one replaces the session's highlighted element; an empty inner
+    /// optional means that no element is highlighted.
     std::optional<std::optional<slicing::Element>> highlight = {};
     bool operator==(const PictureStreamKey&) const = default;
 };
 
-/// The state of one revision of a session, with its slices if a client needs them. Public members do not change after
-/// the snapshot is made.
+/// The state of one revision of a session, with its slices if a client needs them. The public members do not change
+/// after the snapshot is made.
 struct SessionSnapshot {
     session::State state;
     std::uint64_t revision = 0;

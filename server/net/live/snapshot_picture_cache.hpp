@@ -1,5 +1,5 @@
 #pragma once
-// A cache of a session's newest snapshot and of the pictures made of it.
+// A cache of a session's newest snapshot, and of the pictures made of this snapshot.
 
 #include <algorithm>
 #include <cstdint>
@@ -13,7 +13,7 @@
 namespace oval4d::net {
 
 /// The newest snapshot of a session, and the pictures that have been made of this snapshot. Clients with equal
-/// StreamKeys share a picture. Not thread-safe.
+/// PictureStreamKeys share a picture. Not thread-safe.
 class SnapshotPictureCache {
   public:
     using MessagesByStream = std::vector<std::pair<PictureStreamKey, OutgoingMessage>>;

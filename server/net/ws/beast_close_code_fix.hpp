@@ -1,9 +1,9 @@
 #pragma once
 // Corrects which close codes Beast accepts from clients. Beast 1.81 rejects 1014, which IANA has registered. It accepts
-// codes from 5000 on, which RFC 6455, section 7.4.2, does not allow. Beast has no option to change this, so this header
-// specializes the function template with which Beast reads a close frame, for Beast's buffer type. Every source file
-// that uses a WebSocket stream must include this header. A file that instantiated the original template would violate
-// the one-definition rule.
+// codes from 5000 on, which RFC 6455, section 7.4.2, does not allow. Beast has no option to change this. So this header
+// specializes read_close(), the function template with which Beast reads a close frame, for the buffers that Beast
+// passes to it. Every source file that uses a WebSocket stream must include this header, because a file that
+// instantiates the original template violates the one-definition rule.
 
 #include <array>
 #include <boost/beast/core/buffers_prefix.hpp>

@@ -5,9 +5,9 @@
 
 namespace oval4d::net {
 
-/// Limits the rate of requests. A burst may have as many requests as the rate allows in two seconds. Further requests
-/// are refused, but still count. A client whose refused requests make up another such burst is abusive, and should be
-/// disconnected. Not thread-safe.
+/// Limits the rate of requests of a client. A burst may have as many requests as the rate allows in two seconds.
+/// Further requests are refused, but still count. A client that continues until the refused requests make up another
+/// such burst is abusive, and should be disconnected. Not thread-safe.
 class RateLimit {
   public:
     using Clock = TokenBucket::Clock;

@@ -26,14 +26,14 @@ namespace websocket = beast::websocket;
 
 namespace {
 
-constexpr std::size_t kMaxIdleBuffer = 64U << 10U;   // bytes; a larger read buffer is shrunk after each message
+constexpr std::size_t kMaxIdleBuffer = 64U << 10U;   // in bytes; a larger buffer of a handled message is shrunk
 constexpr std::size_t kWriteFragment = 256U << 10U;  // maximum number of bytes per write
 constexpr std::size_t kReadChunk = 64U << 10U;       // maximum number of bytes per read
 
-// The bytes that may be queued for a connection even if the client's byte account is full.
+// The number of bytes that may be queued for a connection even if the client's byte account is full.
 constexpr std::size_t kMinQueue = 64U << 10U;
 
-constexpr double kParseSecondsPerByte = 1e-8;  // a rough estimate
+constexpr double kParseSecondsPerByte = 1e-8;  // the estimated time to parse one byte of a long message
 
 }  // namespace
 
@@ -61,9 +61,9 @@ asio::awaitable<void> WebSocketConnection::serveClient(UpgradeRequest upgrade) {
     co_await readLoop();
     services_.metrics.webSockets.Decrement();
     ended_ = true;
-    // A client that no longer sends may also no longer read, so a pending write might never end; closing the socket
-    // ends it. Until the handler of the write is called, outbox_ must keep the message, because the socket reads its
-    // bytes.
+    // A client that no longer sends may also no longer read, so a pending write might never end. Closing the socket
+    // ends the write. Until the handler of the write is called, outbox_ must keep the message, because the write reads
+    // its bytes.
     beast::get_lowest_layer(stream_).close();
     if (!writing_) outbox_.clear();
     deadline_->cancel();
@@ -86,8 +86,9 @@ void WebSocketConnection::configureStream(bool offersSubprotocol) {
     stream_.auto_fragment(false);
 }
 
-/// Closes the connection if no hello arrives in time. Does nothing if a hello is being handled at the deadline: reading
-/// its session from the store may take long. If this hello fails, handleHello() closes the connection.
+/// Starts a timer that closes the connection if no hello has arrived in time. The timer does nothing if a hello is
+/// being handled at the deadline, because reading its session from the store may take long. If this hello fails,
+/// handleHello() closes the connection.
 void WebSocketConnection::startHelloTimer() {
     helloDue_ = services_.clock.now() + toSteadyDuration(services_.options.helloTimeout);
     helloDeadline_->start(helloDue_, [weak = weak_from_this()] {
@@ -116,9 +117,9 @@ asio::awaitable<void> WebSocketConnection::readLoop() {
     spdlog::debug("connection ended reason=\"{}\"", incoming.fault.message());
 }
 
-/// Starts to handle the message in `message_`. `executing_` is true until the message has been handled. Asio's operator
-/// && could run handleMessage() together with readAhead(), but is not used. It cancels coroutines in a way that is not
-/// thread-safe if one of them awaits another strand, here the session's
+/// Starts to handle the message in `message_`. `executing_` is true until the message has been handled. Asio's
+/// operator && could run handleMessage() together with readAhead(). It is not used, because it cancels coroutines in a
+/// way that is not thread-safe if one of them awaits another strand, here the session's
 /// (https://github.com/chriskohlhoff/asio/issues/1348).
 void WebSocketConnection::startHandling(ReceivedMessage incoming) {
     executing_ = true;
@@ -288,7 +289,7 @@ asio::awaitable<void> WebSocketConnection::handleHello(wire::Hello hello, Reques
     } catch (const std::exception& fault) {
         spdlog::error("session cannot be joined fault=\"{}\"", fault.what());
     }
-    joining_ = false;  // also after an exception, so that the deadline of the hello applies again
+    joining_ = false;  // reached also after an exception, so that the deadline of the hello applies again
     if (!joined) {
         sendError(joined.error(), id);
         if (joined.error().code == ErrorCode::not_found) close(close_code::kNoSession, "no such session");
@@ -389,7 +390,7 @@ void WebSocketConnection::closeForShutdown() {
             self->unsent_ -= self->outbox_.back().message.bytes.size();
             self->outbox_.pop_back();
         }
-        self->drainedSignal_.cancel();  // wakes readMessage(), which waits while too many bytes are unsent
+        self->drainedSignal_.cancel();  // wakes read(), which waits while too many bytes are unsent
         if (!self->ended_) self->startClosing(close_code::kStopping, "the server is stopping");
     });
 }
@@ -457,7 +458,7 @@ void WebSocketConnection::onMessageWritten(boost::system::error_code fault) {
     writeNext();
 }
 
-/// Starts the deadline of the current write. The client is dropped if the write is not complete by then.
+/// Starts the deadline of the current write. If the write is not complete at the deadline, the client is dropped.
 void WebSocketConnection::startWriteDeadline() {
     const auto due = services_.clock.now() + transferDeadline_->nextFragmentTimeout();
     deadline_->start(due, [self = shared_from_this(), watched = writes_] {

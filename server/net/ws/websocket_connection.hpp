@@ -67,7 +67,7 @@ class WebSocketConnection final : public Peer, public std::enable_shared_from_th
     // The result of reading a message.
     struct ReceivedMessage {
         boost::system::error_code fault;  // why reading failed; empty after success
-        std::optional<Error> refusal;     // set if the message was long and was refused
+        std::optional<Error> refusal;     // why a long message was refused; empty if it was not
         RequestId id;                     // the request id of a refused message, if the id was found
         bool isText = false;
         ByteBudget::Reservation held;  // reserves the memory of a long message
@@ -111,7 +111,7 @@ class WebSocketConnection final : public Peer, public std::enable_shared_from_th
     boost::beast::flat_buffer buffer_;   // the message that is being read
     boost::beast::flat_buffer message_;  // the message that is being executed
     // executing_ tells whether message_ is being handled. watching_ tells whether watchForDisconnect() has been called
-    // meanwhile.
+    // since the handling of message_ began.
     bool executing_ = false, watching_ = false;
 
     std::deque<QueuedMessage> outbox_;
@@ -123,8 +123,8 @@ class WebSocketConnection final : public Peer, public std::enable_shared_from_th
     std::optional<TransferDeadline> transferDeadline_;       // gives the timeouts of the message that is being written
     const std::unique_ptr<Timer> deadline_, helloDeadline_;  // the deadlines of the current write and of the hello
     Timer::Clock::time_point helloDue_;                      // when helloDeadline_ expires
-    // Two timers that are canceled to wake waiting coroutines: `drainedSignal_` after messages have been written,
-    // `executedSignal_` after a message has been handled.
+    // Two timers on which coroutines wait. Canceling a timer wakes its coroutines: `drainedSignal_` is canceled after
+    // messages have been written, `executedSignal_` after a message has been handled.
     boost::asio::steady_timer drainedSignal_, executedSignal_;
 };
 

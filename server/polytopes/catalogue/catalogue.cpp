@@ -52,8 +52,8 @@ CatalogueEntry catalogueEntryOf(const NamedWythoffianPolychoron& row) {
                             std::string(row.family), std::move(aliases));
 }
 
-// A duoprism in the catalogue: the numbers of sides of its two polygons, and Bowers' short name, or an empty text if
-// there is none.
+// A duoprism in the catalogue: the numbers of sides of its two polygons, and Bowers' short name (empty if there is
+// none).
 struct DuoprismRow {
     int p, q;
     std::string_view bowersName;
@@ -125,13 +125,13 @@ struct NearMatch {
     const CatalogueEntry* entry;
 };
 
-// Returns whether a text of `length` letters may be a misspelling of a name at the edit distance `distance`: whether
-// there is at most one mistake for every three letters.
+// Returns whether a text of `length` letters may be a misspelling of a name at the edit distance `distance` from the
+// text: whether `distance` is at most a third of `length`.
 bool isPlausibleMisspelling(std::size_t distance, std::size_t length) { return 3 * distance <= length; }
 
 // Returns the names with the least edit distance from `text`, at most one name for each entry. Returns an empty list if
-// no name is similar. Of several names with this distance, keeps only those whose length is nearest to that of `text`,
-// because a wrong letter is likelier than a missing one.
+// even this distance is too large for a misspelling. Of several names with this distance, keeps only those whose length
+// is nearest to that of `text`, because a wrong letter is likelier than a missing one.
 std::vector<NearMatch> nearMatches(std::string_view text) {
     text = text.substr(0, kMaxNameBytes);
     const std::size_t wanted = text::normalizedName(text).size();
@@ -169,8 +169,9 @@ std::optional<PolytopeNameError> tooLargeError(const PolytopeDesign& design, std
     return {};
 }
 
-// Returns the design of a polytope whose name `text` is part of a longer name. If designNamed() returns an error
-// without a message, adds a message.
+// Returns the design of the polytope that `text` names, like designNamed(). `text` is a part of a longer name, such as
+// "tesseract" in "dual of tesseract". If designNamed() returns an error without a message, adds a message that quotes
+// this part.
 PolytopeDesignOrError designWithin(std::string_view text, std::size_t maxVertices) {
     auto result = designNamed(text, maxVertices);
     if (auto* error = std::get_if<PolytopeNameError>(&result); error != nullptr && error->message.empty()) {

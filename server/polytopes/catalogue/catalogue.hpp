@@ -20,8 +20,8 @@ struct CatalogueEntry {
     std::string family;                ///< the group of entries: "regular", "star", "uniform A4" (or B4, F4, H4),
                                        ///< "other", "prism", "antiprism prism" or "duoprism"
     std::vector<std::string> aliases;  ///< other names in lower case, such as "ico" and "rectified 16-cell"
-    std::string diagram;               ///< Coxeter–Dynkin diagram in linear notation, such as "x3o4o3o", or empty
-    std::string schlaefli;             ///< Schläfli symbol, such as "{3,4,3}", or empty
+    std::string diagram;               ///< the diagram in linear notation, such as "x3o4o3o"; empty if there is none
+    std::string schlaefli;             ///< the Schläfli symbol, such as "{3,4,3}"; empty if there is none
     std::uint32_t vertices, edges, faces, cells;  ///< the numbers of elements
     std::uint32_t symmetryOrder;                  ///< the order of the full symmetry group, which includes reflections
     PolytopeDesign design;
@@ -33,21 +33,22 @@ struct CatalogueEntry {
 /// ends. Thread-safe.
 std::span<const CatalogueEntry> catalogue();
 
-/// The maximum size in bytes of a canonical name (PolytopeDesign::name), so that names can be stored and shown.
+/// The maximum size in bytes of a canonical name (PolytopeDesign::name). Messages and stored sessions contain such
+/// names.
 inline constexpr std::size_t kMaxNameBytes = 256;
 
-/// Returns the entry of the polytope that `text` denotes by a name, an alias, a diagram, a Schläfli symbol or in
-/// another notation (see designDescribedBy() in names.hpp). Returns nullptr if there is none. Ignores case; blanks and
-/// hyphens are equivalent.
+/// Returns the entry of the polytope that `text` denotes. The text may be a name, an alias, a diagram, a Schläfli
+/// symbol, or in another notation (see designDescribedBy() in names.hpp). Returns nullptr if the catalogue has no such
+/// polytope. Ignores case; blanks and hyphens are equivalent.
 const CatalogueEntry* findEntry(std::string_view text);
 
-/// Returns the design of the polytope that a text names. The text may name an entry of the catalogue, or describe any
-/// other polytope in one of the notations (see designDescribedBy() in names.hpp). Returns an error if the text names no
+/// Returns the design of the polytope that a text names. The text may name an entry of the catalogue, or any other
+/// polytope in one of the notations (see designDescribedBy() in names.hpp). Returns an error if the text names no
 /// polytope.
 ///
 /// For a polytope that is not in the catalogue, also returns an error if it has more than `maxVertices` vertices, if
-/// its canonical name has more than kMaxNameBytes, or if the convex hulls that build it have more than kMaxHullPoints
-/// points in total (convex_hull.hpp).
+/// its canonical name has more than kMaxNameBytes, or if the convex hulls from which it is built have more than
+/// kMaxHullPoints points in total (see convex_hull.hpp).
 PolytopeDesignOrError designNamed(std::string_view text, std::size_t maxVertices);
 
 /// Returns the name or alias with the least edit distance from `text`, for suggestions ("did you mean"). If several

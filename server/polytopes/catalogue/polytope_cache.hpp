@@ -17,7 +17,7 @@ namespace oval4d::polytopes {
 const std::shared_ptr<const Polytope>& fiveCell();
 
 /// A cache of polytopes, with their names as keys. The cache owns the most recently used polytopes, up to a memory
-/// limit. It also finds each polytope that it no longer owns, as long as a caller holds it. Thread-safe.
+/// limit. It also finds a polytope that it no longer owns, as long as a caller still holds this polytope. Thread-safe.
 class PolytopeCache {
   public:
     using SharedPolytope = std::shared_ptr<const Polytope>;
@@ -41,7 +41,8 @@ class PolytopeCache {
     std::size_t bytes() const;
 
   private:
-    // The entry for one name. Holds the polytope by a weak pointer, which does not keep it alive.
+    // A slot: what the cache stores for one name. The slot holds the polytope by a weak pointer, which does not keep
+    // the polytope alive.
     struct PolytopeCacheEntry {
         std::mutex building;  // held while the polytope is being built
         std::weak_ptr<const Polytope> polytope;
@@ -57,10 +58,11 @@ class PolytopeCache {
     void markUsedAndEvict(const SharedPolytope& polytope);
 
     const std::size_t maxBytes_;
-    mutable std::mutex mutex_;  // guards the members below; not locked while a polytope is being built
+    mutable std::mutex mutex_;  // guards the members below and PolytopeCacheEntry::polytope; not locked while a
+                                // polytope is being built
     std::map<std::string, std::shared_ptr<PolytopeCacheEntry>> slots_;
     std::list<SharedPolytope> recent_;  // the polytopes that the cache owns; the most recently used first
-    std::size_t bytes_ = 0;             // the memory of the polytopes in `recent_`
+    std::size_t bytes_ = 0;             // the memory of the polytopes in recent_, in bytes
 };
 
 }  // namespace oval4d::polytopes

@@ -103,8 +103,8 @@ class HullOrIntersectionRecipe : public Recipe {
             if (circumradius == 0 || operand.circumradius)
                 circumradius = operand.circumradius.value_or(polytope.circumradius);
             const double scale = circumradius / polytope.circumradius;
-            // The intersection of two polytopes is the polar reciprocal of the hull of their polar reciprocals,
-            // whose vertices are the poles.
+            // The intersection of two polytopes is the polar reciprocal of the hull of their polar reciprocals. The
+            // vertices of the polar reciprocal of a polytope are the poles of its cells (see polesOf()).
             for (const glm::dvec4& point : intersection_ ? polesOf(polytope) : polytope.vertices)
                 points.push_back(intersection_ ? point / scale : point * scale);
         }
@@ -142,9 +142,9 @@ PolytopeDesignOrError productNamed(const Words& one, const Words& other, const D
 //
 // Both polytopes of a hull or an intersection must be convex; each is centered at the origin. By default, the first
 // polytope has the size that it has alone, and the second polytope has the circumradius of the first. A name followed
-// by "of circumradius" and a number from 0.01 to 100 sets another circumradius. The result is moved such that the mean
-// of its vertices is the origin. Recipe::build throws std::invalid_argument if one of the two polytopes is not convex,
-// and TooLarge if a limit of convex_hull.hpp is exceeded.
+// by "of circumradius" and a number from 0.01 to 100 sets another circumradius. The hull or intersection is moved such
+// that the mean of its vertices is the origin. Recipe::build throws std::invalid_argument if one of the two polytopes
+// is not convex, and TooLarge if a limit of convex_hull.hpp is exceeded.
 //
 // The product of two polygons is their duoprism. The product of a polyhedron and a segment (of length 2) is the prism
 // over the polyhedron.

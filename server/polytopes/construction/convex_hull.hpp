@@ -18,8 +18,8 @@ namespace oval4d::polytopes {
 inline constexpr std::uint64_t kMaxHullPoints = 20'000;
 
 /// The maximum number of sides of a 2-face of a polytope that is used in a construction by convex hulls, as in
-/// "truncation of X". In a polygon with more sides, each vertex lies so close to the line through its two neighbors
-/// that rounding errors matter.
+/// "truncation of X". In a regular polygon with more sides, each vertex lies so close to the line through its two
+/// neighbors that rounding errors matter.
 inline constexpr std::size_t kMaxHullSides = 1000;
 
 /// The maximum number of cells of a hull.
@@ -31,14 +31,14 @@ class TooLarge : public std::invalid_argument {
     using std::invalid_argument::invalid_argument;
 };
 
-/// Returns the convex hull of the points. Assumes that each coordinate has a rounding error of at most 1e-12 times
-/// the largest distance of a point from the origin. Merges simplices that lie in one hyperplane within this error
-/// into one cell. Throws TooLarge if there are more than kMaxHullPoints points or kMaxHullCells cells, and
-/// std::invalid_argument if the points do not span four dimensions.
+/// Returns the convex hull of the points. Assumes that each coordinate has a rounding error of at most 1e-12 times the
+/// largest distance of a point from the origin. Simplices that lie in one hyperplane, to within this error, become one
+/// cell. Throws TooLarge if there are more than kMaxHullPoints points or kMaxHullCells cells, and std::invalid_argument
+/// if the points do not span four dimensions.
 Polytope hullPolytope(std::string name, std::span<const glm::dvec4> points);
 
-/// Returns the convex hull of the points, moved such that the origin is the mean of the hull's vertices, which is an
-/// interior point. Throws like hullPolytope().
+/// Returns the convex hull of the points, moved such that the mean of the hull's vertices, an interior point, is the
+/// origin. Throws like hullPolytope().
 Polytope centeredHull(std::string name, std::span<const glm::dvec4> points);
 
 /// Returns the polytope, moved such that the mean of its vertices is the origin.

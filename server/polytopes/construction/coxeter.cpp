@@ -21,7 +21,7 @@ namespace {
 
 constexpr double kPhi = std::numbers::phi;
 
-// A diagram that is a chain, given by its branches p, q and r, and mirrors that meet at the angles of the diagram. With
+// The branches p, q and r of a diagram that is a chain, and mirrors that meet at the angles of these branches. With
 // these mirrors, the polytopes of the diagram have the coordinates that are usual in the literature.
 struct DiagramWithMirrors {
     std::array<DiagramBranch, 3> branches;
@@ -80,7 +80,7 @@ Mirrors mirrorsFromAngles(const CoxeterDiagram& diagram) {
     return mirrors;
 }
 
-// How the reflections permute the members of an orbit, which are numbered from 0: the reflection in mirror k maps
+// How the reflections permute the members of an orbit, which are numbered from 0. The reflection in mirror k maps
 // member m to the member whose number is entry 4 · m + k.
 using ReflectionImages = std::vector<std::uint32_t>;
 
@@ -188,8 +188,8 @@ std::vector<std::uint32_t> cellFaces(MirrorSet set, const std::vector<std::uint3
     return faces;
 }
 
-// Returns the canonical representative of the orbit of `set` under the symmetries of the diagram: the image of
-// `set` whose bit mask is the least number.
+// Returns the least of the images of `set` under the symmetries of the diagram, compared as numbers. All sets of an
+// orbit under these symmetries have the same least image.
 MirrorSet leastImage(MirrorSet set, const std::vector<MirrorPermutation>& symmetries) {
     MirrorSet least = set;
     for (const MirrorPermutation& from : symmetries) {

@@ -15,9 +15,9 @@ using Mirrors = std::array<glm::dvec4, 4>;
 
 /// Returns mirrors whose reflections generate the diagram's Coxeter group. For the branches of a convex regular
 /// polychoron (4-D polytope), the mirrors are placed such that the polytopes have the usual coordinates (Coxeter,
-/// Regular Polytopes, §8.7, §14.9; for the 5-cell, those in Kageyama's paper, which README.md names). For other
-/// branches, the mirrors are computed from the Gram matrix of their normals. Throws std::invalid_argument if this
-/// matrix is not positive definite, because the diagram then describes no finite group in four dimensions.
+/// Regular Polytopes, §8.7, §14.9). Those of the 5-cell are the coordinates in Kageyama's paper, which README.md names.
+/// For other branches, the mirrors are computed from the Gram matrix of their normals. Throws std::invalid_argument if
+/// this matrix is not positive definite, because the diagram then describes no finite group in four dimensions.
 Mirrors mirrorsOf(const CoxeterDiagram& diagram);
 
 /// Returns the point that lies at distance 1 from each ringed mirror and on all other mirrors.

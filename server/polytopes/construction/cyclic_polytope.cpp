@@ -29,20 +29,21 @@ namespace {
 // Returns the number of cells of the cyclic polytope with n vertices.
 constexpr std::uint64_t cyclicCells(std::uint64_t n) { return n * (n - 3) / 2; }
 
-// The largest number of vertices is 448, because the polytope then has at most kMaxHullCells cells.
+// The allowed numbers of vertices. With one vertex more than 448, the polytope would have more than kMaxHullCells
+// cells.
 constexpr int kLeastCyclicVertices = 5, kMostCyclicVertices = 448;
 static_assert(cyclicCells(kMostCyclicVertices) <= kMaxHullCells &&
               cyclicCells(kMostCyclicVertices + 1) > kMaxHullCells);
 
 /// A recipe for a cyclic polytope other than the 5-cell (Ziegler, Lectures on Polytopes, section 0). The polytope is
 /// the convex hull of n points at equal distances on the trigonometric moment curve t ↦ (cos t, sin t, cos 2t, sin 2t).
-/// Vertex k has t = 2πk/n; numbers of vertices are modulo n.
+/// Vertex k has t = 2πk/n; the indices of vertices are taken modulo n.
 ///
-/// By Gale's evenness condition, the cells are the tetrahedra of two disjoint pairs of neighbors, {i, i + 1} and {j, j
-/// + 1}. Proof: let a and b be the values of t halfway between the two vertices of each pair. The function (cos(π/n) −
-/// cos(t − a)) (cos(π/n) − cos(t − b)) is 0 at these four vertices and positive at all others, because no vertex lies
-/// between neighbors. The function is a trigonometric polynomial of degree 2, that is, an affine function on the curve.
-/// So a hyperplane supports the polytope in the four vertices.
+/// By Gale's evenness condition, the cells are the tetrahedra whose corners are two disjoint pairs of neighbors, {i,
+/// i + 1} and {j, j + 1}. Proof: let a and b be the values of t halfway between the two vertices of each pair. The
+/// function (cos(π/n) − cos(t − a)) (cos(π/n) − cos(t − b)) is 0 at these four vertices and positive at all others,
+/// because no vertex lies between neighbors. The function is a trigonometric polynomial of degree 2, that is, an affine
+/// function on the curve. So a hyperplane supports the polytope in the four vertices.
 class CyclicPolytopeRecipe : public Recipe {
   public:
     /// Makes a recipe for n vertices. n must be at least 6.
@@ -72,13 +73,14 @@ class CyclicPolytopeRecipe : public Recipe {
             vertices.push_back(radius * glm::dvec4(std::cos(t), std::sin(t), std::cos(2 * t), std::sin(2 * t)));
         }
 
-        // Each 2-face contains a pair of neighbors: {i, i + 1, i + 2 + k} with 0 ≤ k < n − 3 has the index i (n −
-        // 3) + k.
+        // Each 2-face contains a pair of neighbors. The 2-face {i, i + 1, i + 2 + k}, with 0 ≤ k < n − 3, has the index
+        // i (n − 3) + k.
         geometry::JaggedArray faces;
         for (std::uint32_t i = 0; i < n; ++i) {
             for (std::uint32_t k = 0; k < n - 3; ++k) faces.add(std::array{i, (i + 1) % n, (i + 2 + k) % n});
         }
-        // Returns the index of the 2-face {i, i + 1, j}. If j = i − 1, this 2-face is listed as {j, j + 1, j + 2}.
+        // Returns the index of the 2-face {i, i + 1, j}. If j = i − 1 modulo n, this is the 2-face {j, j + 1, j + 2} of
+        // the list.
         const auto face = [n](std::uint32_t i, std::uint32_t j) {
             const std::uint32_t steps = (j + n - i) % n;
             return steps == n - 1 ? (i + n - 1) % n * (n - 3) : i * (n - 3) + steps - 2;

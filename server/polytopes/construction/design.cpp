@@ -38,9 +38,9 @@ class WythoffianRecipe : public Recipe {
 
     Polytope build(const std::string& name) const override {
         Mirrors mirrors = mirrorsOf(diagram_);
-        // In the usual coordinates of the 120-cell, some vertices are the even permutations of four numbers. The
-        // mirrors of mirrorsOf() generate the mirror image, with the odd permutations; exchanging x and y corrects
-        // this.
+        // In the usual coordinates of the 120-cell, the coordinates of some vertices are the even permutations of four
+        // numbers. The mirrors of mirrorsOf() generate the mirror image, with the odd permutations; exchanging x and y
+        // corrects this.
         if (name == "120-cell") {
             for (auto& mirror : mirrors) std::swap(mirror.x, mirror.y);
         }
@@ -69,8 +69,9 @@ class SnubPrismRecipe : public Recipe {
         }
         return {2 * vertices, 2 * edges + vertices, 2 * faces + edges, faces + 2};
     }
-    // The order is 2 · rotations(), because the prism has a mirror between its bases. If the base is an antiprism, the
-    // order is 4 · rotations(), because half of the symmetries of an antiprism are not rotations.
+    // The symmetries of the prism are those of its base, each with or without a reflection that exchanges the two
+    // bases. A snub base has only the rotations as symmetries. An antiprism has twice as many, because half of its
+    // symmetries are not rotations.
     std::uint64_t symmetryOrder() const override { return rotations() * (q_.numerator == 2 ? 4 : 2); }
     std::string linearNotation() const override {
         // By convention, the diagram of an antiprism begins with the branch number 2: the prism over the 5-antiprism is
@@ -132,7 +133,7 @@ PolytopeDesign designOf(const CoxeterDiagram& diagram) {
     const auto& named = designsByDiagram();
     if (const auto found = named.find(canonical(diagram)); found != named.end()) return found->second;
     // If every connected component of the diagram has at most two mirrors, the polytope is a duoprism. A component of
-    // two mirrors generates a polygon. Two components of one mirror each generate a square together.
+    // two mirrors generates a polygon. Two components that have one mirror each generate a square together.
     std::vector<RegularPolygon> polygons;
     int single = 0;
     for (const MirrorSet component : componentsOf(diagram)) {

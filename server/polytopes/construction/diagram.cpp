@@ -10,8 +10,8 @@ namespace {
 
 MirrorSet mirrorBit(int mirror) { return 1U << static_cast<unsigned>(mirror); }
 
-// Returns the mirrors of `set` that are connected, by branches between mirrors of `set`, to a mirror in both `start`
-// and `set`. The mirrors in both sets are included.
+// Returns the mirrors of `set` that can be reached from the mirrors in both `start` and `set`, along branches between
+// mirrors of `set`. The result includes the mirrors in both sets.
 MirrorSet connectedTo(const CoxeterDiagram& diagram, MirrorSet start, MirrorSet set) {
     MirrorSet reached = start & set;
     for (int sweep = 0; sweep < kMirrors; ++sweep) {

@@ -46,8 +46,8 @@ using MirrorPermutation = std::array<int, 4>;
 /// Returns a diagram with the mirrors of `diagram` in another order: its mirror i is mirror `from[i]` of `diagram`.
 CoxeterDiagram permuted(const CoxeterDiagram& diagram, const MirrorPermutation& from);
 
-/// Returns the permutations of the mirrors that preserve branches and rings, the identity first. Each of them induces a
-/// symmetry of the polytope.
+/// Returns the permutations of the mirrors that preserve branches and rings, the identity first. Each permutation
+/// induces a symmetry of the polytope.
 std::vector<MirrorPermutation> automorphismsOf(const CoxeterDiagram& diagram);
 
 /// Returns the canonical form of a diagram. Diagrams that differ only in the order of their mirrors have the same
@@ -67,9 +67,9 @@ bool generatesElement(const CoxeterDiagram& diagram, MirrorSet set);
 /// may be fractional, as in star polyhedra and star polychora (Coxeter, Regular Polytopes, §11.5 and §14.1).
 std::uint64_t groupOrder(const CoxeterDiagram& diagram, MirrorSet set = 0xf);
 
-/// Returns the mirrors that generate the stabilizer of an element: the subgroup of the diagram's Coxeter group that
-/// maps the element to itself. The element is the one that `set` generates. The result contains the mirrors of `set`
-/// and the unringed mirrors that are perpendicular to all mirrors of `set`.
+/// Returns the mirrors that generate the stabilizer of the element that `set` generates. The stabilizer is the subgroup
+/// of the diagram's Coxeter group that maps this element to itself. The result contains the mirrors of `set` and the
+/// unringed mirrors that are perpendicular to all mirrors of `set`.
 MirrorSet stabilizerOf(const CoxeterDiagram& diagram, MirrorSet set);
 
 /// The numbers of vertices, edges, 2-faces and cells of a polytope.

@@ -123,8 +123,8 @@ std::vector<std::string> operationNames(const CoxeterDiagram& diagram) {
     for (const NamedWythoffianPolychoron& row : namedWythoffianPolychora()) {
         if (row.family != "regular") continue;
         for (const RingOperation& operation : kOperations) {
-            // Skip operations that leave the first node without a ring, except rectification and bitruncation: their
-            // results are usually named as operations on the dual polytope.
+            // Skip operations that leave the first node without a ring, except rectification and bitruncation. The
+            // results of the skipped operations are usually named as operations on the dual polytope.
             if (operation.rings < RingedNodes{true} && operation.name != "rectified" && operation.name != "bitruncated")
                 continue;
             CoxeterDiagram regular = diagramOf(row);

@@ -1,6 +1,6 @@
 #pragma once
-// Texts that stand for Coxeter–Dynkin diagrams: diagrams in linear notation, Schläfli symbols, and names of operations
-// on regular polychora, such as "truncated tesseract".
+// Names of operations on regular polychora (4-D polytopes), such as "truncated tesseract". The source file also defines
+// three notations of notations.hpp: these names, Schläfli symbols, and diagrams in linear notation.
 
 #include <string>
 #include <vector>

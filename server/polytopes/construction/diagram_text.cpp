@@ -12,7 +12,8 @@ namespace {
 
 using Reason = PolytopeNameError::Reason;
 
-constexpr int kMaxNumber = 1'000'000;  // the largest number in a text; polytopes with such numbers are always too large
+constexpr int kMaxNumber = 1'000'000;  // the largest number that a text may contain; with a larger one, a polytope
+                                       // would be too large anyway
 
 bool isDigit(char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; }
 
@@ -61,7 +62,7 @@ PolytopeNameError badBranchError() {
 }
 
 // Builds a diagram from its nodes in order, and from the branches of each node to earlier nodes. A diagram has four
-// mirrors: further nodes are only counted, and make checked() return an error.
+// mirrors; nodes after the fourth are only counted, and make checkedDiagram() return an error.
 class DiagramBuilder {
   public:
     int nodes = 0;
@@ -123,7 +124,7 @@ std::vector<int> mirrorsAlongChain(const CoxeterDiagram& diagram, MirrorSet comp
 }
 
 // Parses the operation before the opening brace of a Schläfli symbol, such as "t0,1". Returns the set of ringed
-// mirrors, of which mirror 0 is the first node of the symbol. Returns an empty optional for an unknown operation.
+// mirrors; mirror 0 is the first node of the symbol. Returns an empty optional for an unknown operation.
 std::optional<MirrorSet> parseRingPrefix(std::string_view text) {
     constexpr std::pair<std::string_view, MirrorSet> kNamed[] = {
         {"", 1}, {"r", 2}, {"t", 3}, {"2r", 4}, {"rr", 5}, {"2t", 6}, {"tr", 7}, {"2rr", 10}, {"2tr", 14}};
@@ -210,8 +211,8 @@ std::variant<CoxeterDiagram, PolytopeNameError> parseSchlaefli(std::string_view 
             builder.addBranch(builder.nodes - 2, builder.nodes - 1, *branch);
         }
         // Check that the symbol has all nodes that its prefix rings. A prefix can ring only the nodes 0 to 3, so a
-        // symbol of four or more nodes needs no check. The check is also skipped because a shift by 32 or more is
-        // undefined.
+        // symbol of four or more nodes needs no check. Without the condition own < kMirrors, a long symbol would also
+        // cause a shift by 32 or more, which is undefined.
         if (const int own = builder.nodes - first; own < kMirrors && (*rings >> static_cast<unsigned>(own)) != 0) {
             return PolytopeNameError::impossible(
                 "the numbers before { must be node numbers, from 0 to the last node of the symbol");

@@ -16,7 +16,7 @@ namespace oval4d::polytopes {
 struct PolytopeNameError {
     enum class Reason : std::uint8_t {
         unknown,     ///< the text is neither a known name nor in a known notation; `message` may be empty
-        impossible,  ///< the text has a known notation, but describes no polytope, such as "2,5-duoprism", or is too
+        impossible,  ///< the text is in a known notation, but describes no polytope, such as "2,5-duoprism", or is too
                      ///< long
         too_large,   ///< the polytope has too many vertices, or is built from convex hulls of too many points
     };

@@ -16,9 +16,9 @@ namespace oval4d::polytopes {
 std::vector<glm::dvec4> polesOf(const Polytope& polytope);
 
 /// Returns a polytope with the incidences of the dual of `base`. The result has a vertex for each cell of `base`, a
-/// 2-face for each edge (the loop of the cells around the edge), and a cell for each vertex. `vertices` holds the
-/// position of the new vertex for each cell of `base`. Throws InvalidPolytope if these elements do not form a valid
-/// polytope.
+/// 2-face for each edge (the loop of the cells around the edge), and a cell for each vertex. `vertices` holds, for each
+/// cell of `base`, the position of the corresponding vertex of the result. Throws InvalidPolytope if these elements do
+/// not form a valid polytope.
 Polytope dualWithVertices(const Polytope& base, std::string name, std::vector<glm::dvec4> vertices);
 
 /// Returns the diagram of a regular polytope: a chain whose only ringed mirror is the first one, with the branches in

@@ -25,25 +25,25 @@ namespace oval4d::polytopes {
 namespace {
 
 // Returns point `index` of 2n points at equal distances on a circle around the origin. Every other point is a vertex of
-// a regular n-gon of edge length 2.
+// a regular n-gon of edge length 2 (for n = 2, an end of a segment of length 2).
 //
-// A duoantiprism has its vertices on two such circles, with n = p and n = q. With these radii, the ratio of the longest
-// edge to the shortest edge is least. Proof: for any radii, let a and b be the edge lengths of the p-gons and of the
-// q-gons, and c the length of the other edges. An edge of length c joins neighboring points in its projection onto the
-// plane of each circle. These points are a / (2 cos(π/(2p))) apart on the first circle, and b / (2 cos(π/(2q))) on the
-// second.
+// In the projections onto the xy plane and the zw plane, the vertices of a duoantiprism lie on two such circles, with
+// n = p and n = q. With the radii of these circles, the ratio of the longest edge to the shortest edge is least. Proof:
+// for any radii, let a and b be the edge lengths of the p-gons and of the q-gons, and c the length of the other edges.
+// An edge of length c joins neighboring points in its projection onto the plane of each circle. These points are a / (2
+// cos(π/(2p))) apart on the first circle, and b / (2 cos(π/(2q))) on the second.
 //
-// Therefore c² = a² / (4 cos²(π/(2p))) + b² / (4 cos²(π/(2q))). The coefficients of a² and b² are at most 1/2, and both
-// are 1/2 only for p = q = 2. Hence all lengths can be equal only for p = q = 2. For other p and q, c is less than the
-// larger of a and b, and max(a, b) / min(a, b, c) is least for a = b.
+// The sum of the squares is c² = a² / (4 cos²(π/(2p))) + b² / (4 cos²(π/(2q))). The coefficients of a² and b² are at
+// most 1/2, and both are 1/2 only for p = q = 2. Hence all lengths can be equal only for p = q = 2. For other p and q,
+// c is less than the larger of a and b, and max(a, b) / min(a, b, c) is least for a = b.
 glm::dvec2 pointOnCircle(std::uint32_t n, std::uint32_t index) {
     const double angle = std::numbers::pi / n;
     return glm::dvec2(std::cos(angle * index), std::sin(angle * index)) / std::sin(angle);
 }
 
 /// A recipe for a duoantiprism other than the 16-cell. A vertex of the duoprism of a 2p-gon and a 2q-gon is a pair (i,
-/// j). i is one of 2p points on a circle in the xy plane, and j is one of 2q points on a circle in the zw plane. The
-/// vertices of the duoantiprism are those with an even sum i + j.
+/// j). Here, i is one of 2p points on a circle in the xy plane, and j is one of 2q points on a circle in the zw plane.
+/// The vertices of the duoantiprism are those with an even sum i + j.
 class DuoantiprismRecipe : public Recipe {
   public:
     /// Makes a recipe for a p-gon and a q-gon. p must be at least 2, and q at least 3 and not less than p.
@@ -74,9 +74,9 @@ class DuoantiprismRecipe : public Recipe {
 
         geometry::JaggedArray faces;
         const auto nextFace = [&] { return static_cast<std::uint32_t>(faces.size()); };
-        // The 2-faces of the antiprisms. betweenQ[i] belongs to the antiprism between the q-gons at the points i and i
-        // + 1 of the first circle. betweenP[j] belongs to the antiprism between the p-gons at the points j and j + 1 of
-        // the second circle.
+        // The 2-faces of the antiprisms, as indices in `faces`. betweenQ[i] belongs to the antiprism between the q-gons
+        // at the points i and i + 1 of the first circle. betweenP[j] belongs to the antiprism between the p-gons at the
+        // points j and j + 1 of the second circle.
         std::vector<std::vector<std::uint32_t>> betweenQ(m), betweenP(n);
         std::vector<std::uint32_t> loop;
         for (std::uint32_t i = 0; i < m; ++i) {
@@ -94,8 +94,9 @@ class DuoantiprismRecipe : public Recipe {
             faces.add(loop);
         }
 
-        // All other 2-faces are triangles. Each triangle separates an antiprism from a disphenoid. The four corners of
-        // a disphenoid are the neighbors of a vertex (i, j) of the duoprism that is not a vertex of the duoantiprism.
+        // All other 2-faces are triangles. Each triangle separates an antiprism from a disphenoid, a tetrahedron whose
+        // opposite edges are equally long. The four corners of a disphenoid are the neighbors of a vertex (i, j) of the
+        // duoprism that is not a vertex of the duoantiprism.
         geometry::JaggedArray cells;
         std::vector<std::uint32_t> orbits;  // the orbit of each cell under the symmetry group
         for (std::uint32_t i = 0; i < m; ++i) {

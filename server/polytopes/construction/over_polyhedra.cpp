@@ -60,7 +60,8 @@ class PrismOrPyramidRecipe : public Recipe {
         const auto n = static_cast<std::uint32_t>(base.vertices.size());
         const double height = apexHeightOver(base.vertices);
         const double shift =
-            over_ == PrismOrPyramidKind::pyramid ? height / (n + 1) : 0;  // moves the mean to the origin
+            over_ == PrismOrPyramidKind::pyramid ? height / (n + 1) : 0;  // by which the vertices are moved along −w,
+                                                                          // so that their mean is the origin
         std::vector<glm::dvec4> vertices;
         for (const glm::dvec3& v : base.vertices) vertices.emplace_back(v, -shift);
         vertices.emplace_back(0, 0, 0, height - shift);
@@ -91,8 +92,8 @@ class PrismOrPyramidRecipe : public Recipe {
     }
 
   private:
-    // Returns the height of a pyramid or of each half of a bipyramid, by the rules in the comment of
-    // prismOrPyramidNamed().
+    // Returns the height of a pyramid, or of each half of a bipyramid, over a polyhedron with the vertices `base`. The
+    // comment of prismOrPyramidNamed() has the rules.
     double apexHeightOver(const std::vector<glm::dvec3>& base) const {
         constexpr double kEdge = 2, kFlat = 1e-6;
         double circumradius = 0;

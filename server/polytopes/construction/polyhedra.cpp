@@ -60,10 +60,10 @@ constexpr auto kPolygons = std::to_array<NamedPolygon>({
     {{5, 2}, "pentagrammic", "pentagram"},
 });
 
-// Returns the shape of the base of a prism. The first three mirrors of the prism's diagram are the mirrors of the base.
-// Each pair of these mirrors that generates an element of the prism generates an orbit of faces of the base. The number
-// of faces in the orbit is the order of the base's group divided by the order of the stabilizer of a face. The
-// circumradius of the base is the distance of the generating vertex from the base's center.
+// Returns the signature of the base of a prism. `prism` is the diagram of the prism; its first three mirrors are the
+// mirrors of the base. Each pair of these mirrors that generates an element of the prism generates an orbit of faces of
+// the base. The number of faces in the orbit is the order of the base's group divided by the order of the stabilizer of
+// a face. The circumradius of the base is the distance of the generating vertex from the base's center.
 PolyhedronSignature signatureOf(const CoxeterDiagram& prism) {
     PolyhedronSignature shape;
     const MirrorSet solid = 0x7;

@@ -21,7 +21,8 @@ struct NamedPolyhedron {
     std::string_view name;            ///< the name of the polyhedron, such as "truncated cube"
     std::string_view adjective;       ///< the adjective in the name of the prism over the polyhedron, such as
                                       ///< "truncated cubic"
-    std::string_view linearNotation;  ///< its diagram, such as "x4x3o"; the nodes of a snub polyhedron are s: "s4s3s"
+    std::string_view linearNotation;  ///< the diagram of the polyhedron, such as "x4x3o", or "s4s3s" for a snub
+                                      ///< polyhedron
     std::string_view prism;  ///< Bowers' short name of the prism; empty if the catalogue does not contain the prism
 };
 
@@ -31,7 +32,7 @@ std::span<const NamedPolyhedron> namedPolyhedra();
 /// Returns whether the polyhedron is convex. Only the Kepler–Poinsot solids are not.
 bool isConvex(const NamedPolyhedron& polyhedron);
 
-/// Returns the vertices of the polyhedron with edge length 2 and its center at the origin.
+/// Returns the vertices of the polyhedron, scaled to edge length 2 and centered at the origin.
 std::vector<glm::dvec3> verticesOf(const NamedPolyhedron& polyhedron);
 
 /// Returns the adjective of a polygon: "pentagonal", "pentagrammic", "17-gonal", "7/2-gonal".
@@ -47,8 +48,8 @@ std::optional<RegularPolygon> polygonNamed(std::string_view word);
 
 /// Returns the polygons that `words`, the words before "duoprism" or "duoantiprism" in a name, denote. Returns two
 /// polygons for "5,7", "5x7", "5" "7" or "triangular" "square". If the words name one polygon, such as "pentagonal",
-/// returns it twice. Returns an empty optional if a word names no polygon. Callers must reject a result that does not
-/// have exactly two polygons; callers that need at least three sides must reject polygons of two sides.
+/// returns this polygon twice. Returns an empty optional if a word names no polygon. Callers must reject a result that
+/// does not have exactly two polygons; callers that need at least three sides must reject polygons of two sides.
 std::optional<std::vector<RegularPolygon>> duoprismPolygonsNamed(std::vector<std::string> words);
 
 /// The properties by which nameOf() identifies a uniform polyhedron.

@@ -32,9 +32,9 @@ TriangleGroupGenerators generatorsOf(DiagramBranch p, DiagramBranch q) {
     return {m, mirror(m[0]) * mirror(m[1]), mirror(m[1]) * mirror(m[2])};
 }
 
-// Returns the point x between the mirrors for which all edges of the snub polyhedron have length 2: rotationP,
-// rotationQ and their product each move x by a distance of 2. Solves |x − g x|² = 4 for these three rotations g by
-// Newton's method.
+// Returns the point x between the three mirrors for which rotationP, rotationQ and their product each move x by a
+// distance of 2. All edges of the snub polyhedron with the vertex x then have length 2. Solves |x − g x|² = 4 for these
+// three rotations g by Newton's method.
 glm::dvec3 equidistantPoint(const TriangleGroupGenerators& generators, DiagramBranch p) {
     const std::array<glm::dmat3, 3> moves{glm::dmat3(1) - generators.rotationP, glm::dmat3(1) - generators.rotationQ,
                                           glm::dmat3(1) - generators.rotationP * generators.rotationQ};

@@ -116,8 +116,8 @@ SolidMesh polyhedronMeshOf(const NamedPolyhedron& polyhedron) {
 }
 
 // Returns the dual of a convex polyhedron, with the same circumradius. The pole of the plane n · x = 1 is the point n.
-// The vertices of the dual are the poles of the planes of the base's faces, scaled. Each face of the dual is the loop
-// of the base's faces around a vertex.
+// The vertices of the dual are the poles of the planes of the base's faces, all multiplied by one factor. Each face of
+// the dual is the loop of the base's faces around a vertex.
 SolidMesh dualOf(const SolidMesh& base) {
     SolidMesh dual;
     double circumradius = 0, farthest = 0;

@@ -33,10 +33,10 @@ struct Solid {
 };
 
 /// Returns the solid that the words name, such as "truncated cube", "5 gonal prism", "pentagonal antiprism", "dual of
-/// cuboctahedron", "rhombic dodecahedron" or "hexagonal bipyramid". There must be at least one word, and all must be in
-/// lower case. Returns an error if the words name a star, or a solid over a polygon of fewer than three sides. Returns
-/// an empty optional if the words name no polyhedron. All names of a solid give equal values: "dual of cube" gives the
-/// value of "octahedron".
+/// cuboctahedron", "rhombic dodecahedron" or "hexagonal bipyramid". There must be at least one word; all words must be
+/// in lower case. Returns an error if the words name a star, or a solid over a polygon of fewer than three sides.
+/// Returns an empty optional if the words name no polyhedron. All names of a solid give equal values: "dual of cube"
+/// gives the value of "octahedron".
 std::optional<std::variant<Solid, PolytopeNameError>> solidNamed(const std::vector<std::string>& words);
 
 /// Returns the name of the solid, such as "truncated cube", "pentagonal prism" or "rhombic dodecahedron".

@@ -19,11 +19,11 @@ class TruncationOrRectificationRecipe : public Recipe {
     TruncationOrRectificationRecipe(bool truncation, PolytopeDesign base)
         : truncation_(truncation), base_(std::move(base)) {}
 
-    // The number of vertices is exact. All points on the edges of the convex base are vertices of the hull, because for
-    // each edge, some hyperplane touches the base only in this edge. The other numbers are estimates. They assume that
-    // one cell replaces each vertex, and that each of the f 2-faces of the base has four corners. An edge replaces each
-    // of these 4 f corners. After a truncation, a part of each of the e edges of the base also remains. Euler's
-    // relation (vertices − edges + 2-faces − cells = 0) gives the number of 2-faces.
+    // The number of vertices is exact: all points that build() takes from the edges of the convex base are vertices of
+    // the hull, because for each edge, some hyperplane touches the base only in this edge. The other numbers are
+    // estimates. They assume that one cell replaces each vertex of the base, and that each of the f 2-faces of the base
+    // has four corners. An edge replaces each of these 4 f corners. After a truncation, a part of each of the e edges
+    // of the base also remains. Euler's relation (vertices − edges + 2-faces − cells = 0) gives the number of 2-faces.
     ElementCounts countElements() const override {
         const auto [v, e, f, c] = base_.recipe->countElements();
         const std::uint64_t corners = 4 * f;

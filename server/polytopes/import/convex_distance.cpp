@@ -13,11 +13,12 @@ namespace oval4d::polytopes {
 
 namespace {
 
-constexpr double kErrorBounds = 2;  // the tolerance is the error bound of the point plus that of the hull
-constexpr int kMaxIterations = 64;  // ensures termination; usually, a few iterations suffice
+constexpr double kErrorBounds = 2;  // the tolerance of a distance, in error bounds: one for the point and one for the
+                                    // hull
+constexpr int kMaxIterations = 64;  // the maximum number of iterations; usually, a few suffice
 
-// A vertex of the current simplex, and its weight. The nearest point found so far is the weighted sum of the vertices;
-// the weights are its barycentric coordinates.
+// A vertex of the simplex that Wolfe's method has reached, and the weight of the vertex. The point of the simplex
+// nearest to the origin is the weighted sum of the vertices; the weights are its barycentric coordinates.
 struct WeightedVertex {
     glm::dvec4 position;
     double weight;

@@ -23,7 +23,7 @@ constexpr double kAmbiguityFactor = 3;  // cells that would be merged with error
                                         // ambiguous
 constexpr int kMaxCorrections = 32;
 
-// Returns the triangle of the simplex that is opposite the vertex with this index, 0 … 3.
+// Returns the triangle of `simplex` that lies opposite simplex.vertices[vertex]; `vertex` is from 0 to 3.
 Triangle triangleOpposite(std::size_t vertex, const SimplexFacet& simplex) {
     Triangle triangle{};
     std::size_t at = 0;
@@ -96,8 +96,9 @@ class SimplexMerger {
         }
     }
 
-    // Merges simplices into cells, each of which grows from a seed simplex. The largest simplices are the first seeds:
-    // the hyperplanes of nearly flat simplices are uncertain, so such simplices must join the cells of larger ones.
+    // Merges simplices into cells, each of which grows from a seed simplex. Larger simplices become seeds before
+    // smaller ones: the hyperplane of a small or nearly flat simplex is uncertain, so such a simplex must join the cell
+    // of a larger one.
     void mergeSimplices() {
         std::vector<std::uint32_t> order(simplices_.size());
         std::iota(order.begin(), order.end(), 0U);
@@ -120,9 +121,9 @@ class SimplexMerger {
         }
     }
 
-    // Returns the simplices that can be reached from `seed` through accepted neighbors. Sets their mark_ to
-    // latestMark_. accepts(t, v) returns whether simplex t may join the group; v is the vertex of t that is not a
-    // vertex of the neighbor from which t is reached.
+    // Returns a group of simplices: `seed`, and all that can be reached from it by steps to accepted neighbors. Sets
+    // mark_ of each of these simplices to latestMark_, a new number. accepts(t, v) returns whether simplex t may join
+    // the group; v is the vertex of t that is not a vertex of the neighbor from which t is reached.
     template <typename Accepts>
     std::vector<std::uint32_t> growRegion(std::uint32_t seed, Accepts accepts) {
         ++latestMark_;
@@ -309,8 +310,8 @@ class SimplexMerger {
         return hull;
     }
 
-    // Marks cells with fewer than four 2-faces, so that the next call of mergeTriangles() does not merge their
-    // triangles. Returns false if there are no such cells.
+    // Marks the cells of `hull` that have fewer than four 2-faces, so that the next call of mergeTriangles() does not
+    // merge the triangles of these cells. Returns false if there are no such cells.
     bool markDegenerateCells(const MergedHull& hull) {
         bool any = false;
         for (std::size_t c = 0; c < hull.cells.size(); ++c) {

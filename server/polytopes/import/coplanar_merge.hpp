@@ -30,8 +30,8 @@ struct MergedHull {
 
 /// Merges neighboring simplices into one cell if their hyperplanes agree within the error bounds of the points
 /// (HullFrame::errorBound()). Merges the triangles between two cells into one 2-face. If a merged cell would not be
-/// convex, merges fewer simplices. The caller must ensure that `simplices` form a closed boundary; then the cells form
-/// one, too. `points` are in the coordinates of `frame`.
+/// convex, merges fewer simplices. The caller must ensure that `simplices` form a closed boundary; then the merged
+/// cells also form a closed boundary. `points` are in the coordinates of `frame`.
 MergedHull mergeCoplanar(std::span<const SimplexFacet> simplices, std::span<const glm::dvec4> points,
                          const HullFrame& frame);
 

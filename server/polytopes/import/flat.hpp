@@ -1,6 +1,6 @@
 #pragma once
-// Planes and hyperplanes through points with errors, and the search for the plane or hyperplane of a group of
-// simplices.
+// Planes and hyperplanes through points that have errors, and the search for groups of simplices that lie in one plane
+// or hyperplane.
 
 #include <algorithm>
 #include <array>
@@ -59,8 +59,8 @@ class Flat {
         return along;
     }
 
-    /// Returns the factor by which the flat amplifies errors of the corners at p: the sum of the absolute values of the
-    /// barycentric coordinates of p. Returns infinity if the corners span no simplex.
+    /// Returns the factor by which an error of the flat at p can exceed the errors of the corners: the sum of the
+    /// absolute values of the barycentric coordinates of p. Returns infinity if the corners span no simplex.
     double cornerErrorFactor(const glm::dvec4& p) const {
         std::array<double, Dimension> weights = project(p);
         double sum = 0, first = 1;
@@ -82,8 +82,8 @@ class Flat {
         for (const glm::dvec4& axis : axes_) rest -= glm::dot(rest, axis) * axis;
         const double distance = glm::length(rest);
         if (!(distance > 0)) return true;
-        constexpr double kMaxAmplification = 16;  // the largest factor by which the error bound of the flat may grow
-                                                  // far from its corners
+        constexpr double kMaxAmplification = 16;  // the maximum of cornerErrorFactor() that counts, however far p is
+                                                  // from the corners
         return distance <=
                factor * frame.errorBound(rest / distance) * (1 + std::min(cornerErrorFactor(p), kMaxAmplification));
     }
@@ -128,9 +128,8 @@ std::array<std::uint32_t, Count> largeSimplex(std::span<const std::uint32_t> fro
 /// flat. `own` are the corners of one of the simplices; before the call, `flat` must be the flat through `own`.
 /// grow(flat) returns the group that lies in a flat, and verticesOf(group) returns the vertices of a group.
 ///
-/// The first group is grow(flat). A larger simplex determines a flat more precisely: if vertices of the group span a
-/// larger simplex whose flat also contains `own`, sets `flat` to this flat and calls grow(flat) again, at most four
-/// times.
+/// First calls grow(flat). A larger simplex determines a flat more precisely. So if vertices of the group span a larger
+/// simplex whose flat also contains `own`, sets `flat` to this flat and calls grow(flat) again, at most four times.
 template <typename F, typename Corners, typename Grow, typename VerticesOf>
 std::vector<std::uint32_t> growAndRefit(F& flat, const Corners& own, const Grow& grow, const VerticesOf& verticesOf,
                                         std::span<const glm::dvec4> points, const HullFrame& frame) {

@@ -22,23 +22,25 @@ namespace {
 
 using geometry::kNone;
 
-// A polytope is flat if each vertex is at most kMaxDeviation from the hyperplane of its cell. The search for better
-// places of the vertices ends at kGoalDeviation. Both distances are in units of the parameter `size` of
-// flattenOrSplit(), but at least kMaxRounding or kGoalRounding times doublePrecisionErrorBound(), respectively.
+// A polytope counts as flat if no vertex is farther than kMaxDeviation from a hyperplane in which it must lie. The
+// search for better places of the vertices ends when no vertex is farther than kGoalDeviation. Both distances are in
+// units of the parameter `size` of flattenOrSplit(), but at least kMaxRounding or kGoalRounding times
+// doublePrecisionErrorBound(), respectively.
 constexpr double kMaxDeviation = 1e-12, kGoalDeviation = 1e-13;
 constexpr double kMaxRounding = 2, kGoalRounding = 0.5;
-// Two hyperplanes count as nearly parallel if the cosine of the angle between them is larger than this. Rounding errors
-// then make the plane in which they meet too uncertain.
+// Two hyperplanes count as nearly parallel if the absolute value of the cosine of the angle between them is larger than
+// this. Rounding errors then make the plane in which they meet too uncertain.
 constexpr double kNearlyParallel = 0.995;
-constexpr double kLeastExtent = 1e-9;  // extents below this, relative to the radius of a constraint, count as 0
+constexpr double kLeastExtent = 1e-9;  // an extent of a constraint's vertices below this number of radii
+                                       // (CohyperplanarityConstraint::radius) counts as 0
 
 constexpr int kMaxNewtonRounds = 16;            // the maximum number of rounds of Newton's method
 constexpr std::size_t kMaxGradientSteps = 300;  // the maximum number of steps of conjugate gradients in a round
 constexpr std::size_t kMaxWork = 150'000'000;   // the maximum number of equations and unknowns, added up over all steps
 // A round of Newton's method ends when the gradient of the error is less than a tolerance times the gradient at the
 // start of the round. The first round has the tolerance kFirstTolerance, which makes the result more precise by a few
-// digits. If a round does not reduce the deviation by the factor kGoodProgress, some unknowns have little effect on the
-// equations. Then the tolerance of the next round is multiplied by kTighter, down to kLeastTolerance.
+// digits. If a round does not divide the deviation by at least kGoodProgress, some unknowns have little effect on the
+// equations. Then the tolerance of the next round is multiplied by kTighter, but is at least kLeastTolerance.
 constexpr double kFirstTolerance = 1e-2, kLeastTolerance = 1e-9, kTighter = 1e-3, kGoodProgress = 10;
 
 // A set of vertices that must be moved into one hyperplane, and the hyperplane through their mean that fits them best.
@@ -49,8 +51,8 @@ constexpr double kFirstTolerance = 1e-2, kLeastTolerance = 1e-9, kTighter = 1e-3
 //   hyperplane, which is perpendicular to the hyperplane of `cell`, one of the two cells.
 struct CohyperplanarityConstraint {
     std::uint32_t cell, face;  // `face` is kNone if the set is a cell
-    glm::dvec4 across{0};      // only for a 2-face: the normal of the hyperplane of `cell`, which is perpendicular to
-                               // `normal`
+    glm::dvec4 across{0};      // only for a 2-face: the normal of the hyperplane of `cell`; `normal` is perpendicular
+                               // to it
     glm::dvec4 middle{0}, normal{0};
     double radius = 0;     // the largest distance of a vertex from `middle`
     double deviation = 0;  // the largest distance of a vertex from the hyperplane
@@ -105,11 +107,11 @@ glm::dvec4 unitPerpendicularTo(std::span<const glm::dvec4> units) {
     return best;
 }
 
-// Moves vertices to nearby places at which the vertices of each CohyperplanarityConstraint lie in its hyperplane. Uses
-// Newton's method. Each vertex v of a constraint with the unit normal n and the middle m gives the equation n · (v − m)
-// = 0 for the unknowns v, n and m. The conjugate gradient method finds the least change that solves the linearized
-// equations, without storing their matrix (CGLS: Björck, Numerical Methods for Least Squares Problems, 7.4). The
-// equations need not be independent.
+// Moves vertices to nearby places at which the vertices of each CohyperplanarityConstraint lie in its hyperplane, by
+// Newton's method. Each vertex v of a constraint with the unit normal n and the middle m gives the equation
+// n · (v − m) = 0 for the unknowns v, n and m. The conjugate gradient method finds the least change that solves the
+// linearized equations, without storing their matrix (CGLS: Björck, Numerical Methods for Least Squares Problems, 7.4).
+// The equations need not be independent.
 class Flattener {
   public:
     Flattener(PolygonSoup& soup, double size) : soup_(soup) {
@@ -127,8 +129,8 @@ class Flattener {
     std::uint32_t farthestCell() const { return farthest_ == kNone ? 0 : constraints_[farthest_].cell; }
     bool isFlat() const { return deviation() <= maxDeviation_; }
 
-    /// Sets the entries in `faces` and `cells` of the 2-faces and cells that deviate by more than the permitted
-    /// distance.
+    /// Sets an entry of `faces` or `cells` to true if the 2-face or cell deviates from its hyperplane by more than
+    /// maxDeviation_. Leaves the other entries unchanged.
     void markNonFlat(std::vector<bool>& faces, std::vector<bool>& cells) const {
         for (const CohyperplanarityConstraint& constraint : constraints_) {
             if (constraint.deviation <= maxDeviation_) continue;
@@ -140,9 +142,9 @@ class Flattener {
         }
     }
 
-    /// Moves the vertices until the vertices of each CohyperplanarityConstraint lie in its hyperplane, within the
-    /// permitted distance. Returns false if this fails, or if a vertex moves by more than `maxDistance`; the caller
-    /// must then restore the vertices.
+    /// Moves the vertices until the vertices of each CohyperplanarityConstraint lie in its hyperplane, to within
+    /// maxDeviation_. Returns false if this fails, or if a vertex moves by more than `maxDistance`; the caller must
+    /// then restore the vertices.
     bool flatten(double maxDistance) {
         const std::vector<glm::dvec4> before = soup_.vertices;
         double tolerance = kFirstTolerance, best = std::numeric_limits<double>::infinity();

@@ -10,7 +10,8 @@ namespace oval4d::polytopes {
 
 /// A report of what flattenOrSplit() has found and changed.
 struct FlatteningReport {
-    /// The largest distance of a vertex from the best-fitting hyperplane of its cell or 2-face, before any change.
+    /// The largest distance of a vertex from the best-fitting hyperplane of one of its cells or 2-faces, before any
+    /// change.
     double deviation = 0;
     /// The cell whose hyperplane has this deviation, or one of the two cells of a 2-face with this deviation. The value
     /// is the number of the cell in the 4OFF file, counted from 0. For a polytope that is not from a 4OFF file, the
@@ -23,8 +24,8 @@ struct FlatteningReport {
 
 /// Moves the vertices so that the vertices of each cell lie in one hyperplane, and the vertices of each 2-face in one
 /// plane. Coordinates in files are rounded: without the moves, a slicing hyperplane that nearly contains a rounded cell
-/// would cut it into pieces that do not fit together. The moves are about as small as possible: about as large as the
-/// rounding in the file, if the file is a rounded polytope.
+/// would cut it into pieces that do not fit together. The moves are about as small as possible: if the file contains
+/// rounded coordinates of an exactly flat polytope, the moves are about as large as the rounding.
 ///
 /// After the moves, the distance of a vertex from its hyperplanes and planes is at most 10⁻¹² of `size` or, if that is
 /// larger, twice doublePrecisionErrorBound(). `size` is halfDiagonal() of the vertices. If all distances are already so

@@ -32,7 +32,7 @@ constexpr std::size_t kFirstSample = 256;        // the number of points in the 
 constexpr double kPerturbation = 1e-11;          // the first amplitude of the perturbation, in the coordinates of
                                                  // HullFrame
 constexpr std::size_t kMaxSimplicesPerCell = 4;  // the maximum number of simplices of a hull, as a multiple of maxCells
-constexpr int kMaxRounds = 4;                // the maximum number of rounds that remove points that are not vertices
+constexpr int kMaxRounds = 4;                // the maximum number of rounds; each removes points that are no vertices
 constexpr std::size_t kMessageBytes = 4096;  // the size of the stream that takes and discards Qhull's messages
 
 using Points = std::vector<glm::dvec4>;
@@ -41,7 +41,8 @@ using Points = std::vector<glm::dvec4>;
 // that Qhull need not merge facets: a four-dimensional hull for which Qhull merges facets may not be closed.
 class QhullRun {
   public:
-    /// Runs Qhull. `perturbation` is the initial amplitude; Qhull increases it if it is too small (see perturbation()).
+    /// Runs Qhull. `perturbation` is the initial amplitude. Qhull increases the amplitude if it is too small;
+    /// perturbation() returns the final one.
     QhullRun(std::span<const glm::dvec4> points, double perturbation) {
         for (const glm::dvec4& p : points) {
             for (int k = 0; k < kDimensions; ++k) coordinates_.push_back(p[k]);
@@ -112,9 +113,10 @@ class QhullRun {
     throw FileError{0, "the hull has more than " + std::to_string(maxCells) + " cells, the maximum allowed", true};
 }
 
-// Returns the simplices of the hull of the points, and calls frame.allowForPerturbation(). First computes the hulls of
-// samples of increasing size, because the number of simplices can grow with the square of the number of points. If the
-// hull of a sample is too large, throws a FileError before memory is exhausted.
+// Returns the simplices of the hull of the points, and passes the amplitude of Qhull's perturbation to
+// frame.allowForPerturbation(). First computes the hulls of samples of increasing size, because the number of simplices
+// can grow with the square of the number of points. If the hull of a sample is too large, throws a FileError before
+// memory is exhausted.
 std::vector<SimplexFacet> simplicialHull(const Points& points, HullFrame& frame, std::size_t maxCells) {
     double perturbation = kPerturbation;
     for (std::size_t count = std::min(kFirstSample, points.size());; count = std::min(2 * count, points.size())) {
@@ -175,9 +177,9 @@ std::vector<bool> vertexFlags(std::span<const SimplexFacet> simplices, const Poi
         vertex[v] = !liesInHull(points[v], selectPoints(links[v], points), frame);
         doubtful[v] = !vertex[v];
     }
-    // A point is doubtful if it lies in the hull of its neighbors. Some of these neighbors may be doubtful, too, and be
-    // removed. Therefore each point of a connected component of doubtful points is tested against the hull of the
-    // vertices around the component.
+    // A point is doubtful if it lies in the hull of its neighbors, within the error bounds. Some of these neighbors may
+    // be doubtful, too, and may turn out to be no vertices. Therefore each point of a connected component of doubtful
+    // points is tested against the hull of the vertices around the component.
     for (std::uint32_t first = 0; first < points.size(); ++first) {
         if (!doubtful[first] || reached[first]) continue;
         std::vector<std::uint32_t> together{first}, around;

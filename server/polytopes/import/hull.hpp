@@ -22,8 +22,8 @@ struct ConvexHull {
 /// Computes the convex hull of points with Qhull. `rounding` is the maximum rounding error of a coordinate along each
 /// axis; 0 for exact coordinates. The error bound of a point is its rounding error plus the floating-point errors and
 /// the random perturbation of the computation (see HullFrame::errorBound()). Simplices whose hyperplanes agree within
-/// the error bounds become one cell. A point that is outside the hull of the other points by no more than the error
-/// bounds is not a vertex.
+/// the error bounds become one cell. A point that lies outside the hull of the other points by no more than the error
+/// bounds is not a vertex of the result.
 ///
 /// Throws a FileError if the points do not span four dimensions, if they are too imprecise, if the hull has more than
 /// `maxCells` cells, or if it has more than 4 · `maxCells` simplices before merging.

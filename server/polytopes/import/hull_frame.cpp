@@ -18,8 +18,8 @@ using text_files::throwFileError;
 namespace {
 
 constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
-// The assumed ratio of the error of a hyperplane to the rounding errors of the points through which it passes. The
-// error is measured far from these points.
+// The assumed ratio of the error of a hyperplane, far from the points through which it passes, to the rounding errors
+// of these points.
 constexpr double kTilt = 8;
 
 bool isShorter(const glm::dvec4& a, const glm::dvec4& b) { return glm::dot(a, a) < glm::dot(b, b); }

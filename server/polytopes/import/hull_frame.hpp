@@ -17,14 +17,14 @@ namespace oval4d::polytopes {
 class HullFrame {
   public:
     /// Fits the frame to the points, of which there must be at least one. `rounding` is the maximum rounding error of a
-    /// coordinate along each axis. Throws a FileError if the points do not span four dimensions, or if rounding errors
-    /// may be the only reason why they do.
+    /// coordinate along each axis. Throws a FileError if the points do not span four dimensions, or if they may span
+    /// four dimensions only because of rounding errors.
     HullFrame(std::span<const glm::dvec4> points, const glm::dvec4& rounding);
 
     /// Converts a point to the coordinates of the frame.
     glm::dvec4 operator()(const glm::dvec4& point) const;
 
-    /// Returns the maximum distance by which errors may have moved a point along `direction`, a unit vector. The
+    /// Returns the maximum distance by which errors may have moved a point along the unit vector `direction`. The
     /// distance and the direction are in the coordinates of the frame.
     double errorBound(const glm::dvec4& direction) const;
 

@@ -61,8 +61,7 @@ glm::dvec4 moveOrigin(std::vector<glm::dvec4>& points, const geometry::Centering
 }
 
 // Makes the cells and 2-faces flat by flattenOrSplit(), and appends a warning for each kind of change. Does not warn of
-// moves by at most `rounding`, or by a tiny fraction of the size of the polytope. Returns whether cells or 2-faces were
-// divided.
+// moves by at most `rounding`, or by at most 10⁻¹² of halfDiagonal(). Returns whether cells or 2-faces were divided.
 bool flattenFacesAndCells(PolygonSoup& soup, double rounding, std::vector<std::string>& warnings) {
     constexpr double kTiny = 1e-12;
     const double size = halfDiagonal(soup.vertices);
@@ -143,8 +142,8 @@ ImportedPolytope importOff4(std::string_view text, const std::string& name, cons
 
 // Returns the convex hull of points, to the precision with which their coordinates are written. Coordinates that are
 // all whole numbers, or have few decimals, are normally treated as exact. They are treated as rounded only if the hull
-// that allows for rounding errors meets two conditions: it has no ambiguous cell pairs (see MergedHull), and at most
-// half as many cells as the hull of the exact points. A polytope that was scaled and then rounded to whole numbers
+// that allows for rounding errors meets two conditions. It has no ambiguous cell pairs (see MergedHull), and it has at
+// most half as many cells as the hull of the exact points. A polytope that was scaled and then rounded to whole numbers
 // meets both conditions.
 ConvexHull hullOf(std::span<const glm::dvec4> points, const RoundingEstimator& precision, std::size_t maxCells,
                   std::vector<std::string>& warnings) {
@@ -196,7 +195,7 @@ ImportedPolytope importPoints(std::string_view text, std::string name, const Imp
                                   "one hyperplane");
     }
     // The errors of the hull's vertices are a multiple of the rounding errors: a cell extends beyond the few points
-    // that determine its hyperplane, and its errors grow with the distance from them.
+    // that determine its hyperplane, and the errors of its vertices grow with the distance from these points.
     constexpr double kAmplification = 32, kHullError = 1e-10;
     PolygonSoup soup{std::move(hull.vertices), std::move(hull.faces), std::move(hull.cells), {}, {}};
     const double rounding = kAmplification * glm::length(hull.rounding) + kHullError * halfDiagonal(soup.vertices) +

@@ -186,7 +186,7 @@ void readIndexLists(Tokenizer& file, Off4RecordLayout layout, std::uint32_t reco
 // because the three layouts may differ.
 using Off4RecordLayouts = std::array<Off4RecordLayout, 3>;
 
-// Reads the records after the header, at which `file` begins.
+// Reads all records of the file. `file` must stand at the first record, after the header.
 PolygonSoup readRecords(Tokenizer file, const Off4Header& header, const Off4RecordLayouts& layouts) {
     PolygonSoup soup;
     readVertices(file, header, layouts[0], soup.vertices);
@@ -206,7 +206,7 @@ PolygonSoup readRecords(Tokenizer file, const Off4Header& header, const Off4Reco
 
 // If the file has as many lines as records, returns the fault of the first record whose line has too few words.
 // Otherwise returns an empty optional. Without this function, the error would name a later record: a reader that
-// ignores line breaks completes the short record with words of the next line. `file` begins after the header.
+// ignores line breaks completes the short record with words of the next line. `file` must stand after the header.
 std::optional<FileError> shortRecordOf(Tokenizer file, const Off4Header& header) {
     const std::size_t records = std::size_t{header.vertices} + header.faces + header.cells;
     Tokenizer counted = file;

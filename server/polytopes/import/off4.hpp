@@ -15,16 +15,17 @@ namespace oval4d::polytopes {
 struct Off4Contents {
     PolygonSoup soup;
     std::uint32_t edges = 0;  ///< the number of edges that the file states
-    /// The fault of the first record whose line has too few words, in a file that has a line for each record. Such a
-    /// file was read without regard to lines. If its records do not form a polytope, this fault is the reason.
+    /// The fault of the first record whose line has too few words. Set only if the file has as many lines as records,
+    /// but could be read only without regard to lines. If the elements read do not form a polytope, this fault is the
+    /// probable reason.
     std::optional<text_files::FileError> shortRecord;
 };
 
 /// Reads the text of a 4OFF file, as described at importPolytope(). First assumes that each record begins on a line of
 /// its own, and ignores whatever follows the record on its line. If this fails, reads the records of some or all kinds
 /// without regard to lines, as Geomview does. Throws a FileError if the file is malformed, or has more than
-/// `maxVertices` vertices. If the file has a line for each record, the error names the first record whose line has too
-/// few words.
+/// `maxVertices` vertices. If the file has as many lines as records, the error names the first record whose line has
+/// too few words.
 Off4Contents readOff4(std::string_view text, std::size_t maxVertices);
 
 /// Returns whether a 4OFF file has cells, that is, whether the fourth count in its header is greater than 0. A header

@@ -11,9 +11,9 @@
 
 namespace oval4d::polytopes {
 
-/// Merges triangles into convex polygons, and adds these to `faces`, as loops of indices of points. Merged triangles
-/// share edges and lie in one plane, within the error bounds of the points. Triangles that do not form a convex polygon
-/// are added unmerged.
+/// Merges triangles into convex polygons, and adds each polygon to `faces` as a loop of indices into `points`.
+/// Triangles are merged if they share edges and lie in one plane, within the error bounds of the points. Triangles that
+/// do not form a convex polygon are added unmerged.
 void addMergedPolygons(std::span<const Triangle> triangles, std::span<const glm::dvec4> points, const HullFrame& frame,
                        geometry::JaggedArray& faces);
 

@@ -17,9 +17,9 @@ namespace {
 constexpr double kThin = 1e-6;  // the minimum extent of a polytope in each direction, relative to halfDiagonal()
 
 // Returns the largest distance of a point from a flat through some of the points. The flat is a plane if `dimension` is
-// 2, and a hyperplane if it is 3. The points that it passes through are chosen to be far apart.
+// 2, and a hyperplane if it is 3. The flat passes through points that are far apart.
 double deviationFromFlat(std::vector<glm::dvec4> points, int dimension) {
-    if (points.empty()) return 0;  // no points: a cell that lost all its 2-faces, which build() will reject
+    if (points.empty()) return 0;  // a cell that has lost all its 2-faces has no points; build() will reject it
     const glm::dvec4 origin = points.front();
     for (auto& p : points) p -= origin;
     const auto shorter = [](const glm::dvec4& a, const glm::dvec4& b) { return glm::dot(a, a) < glm::dot(b, b); };

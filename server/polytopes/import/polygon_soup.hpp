@@ -28,8 +28,8 @@ struct PolygonSoup {
     std::vector<SourcePosition> faceSourcePositions, cellSourcePositions;
 };
 
-/// The greatest permitted distance of the vertices of a cell or 2-face in a file from one hyperplane or plane, relative
-/// to halfDiagonal(). Coordinates with three decimals are precise enough.
+/// The greatest permitted distance, relative to halfDiagonal(), of the vertices of a cell from one hyperplane, and of
+/// the vertices of a 2-face from one plane. Coordinates with three decimals are precise enough.
 inline constexpr double kFlatnessTolerance = 5e-3;
 
 /// Returns half the diagonal of the bounding box of the points; 0 if there are no points. The tolerances of the import

@@ -22,13 +22,14 @@ std::string countWithNoun(std::size_t count, const char* one, const char* many) 
     return std::to_string(count) + ' ' + (count == 1 ? one : many);
 }
 
-// Groups points that coincide: two points are in one group if a chain of points joins them in which neighbors are
-// within `distance` of each other. Returns, for each point, the point with the least index in its group. Sorts the
-// points by their projections onto a line, so that only points with close projections are compared.
+// Groups points that coincide: two points are in one group if a chain of points joins them, and neighbors in the chain
+// are at most `distance` apart. Returns, for each point, the point with the least index in its group. Sorts the points
+// by their projections onto a line, so that only points with close projections are compared.
 std::vector<std::uint32_t> clusterRepresentatives(const std::vector<glm::dvec4>& points, double distance) {
     std::vector<std::uint32_t> order(points.size());
     std::iota(order.begin(), order.end(), 0U);
-    // The direction of a line onto which points with a coordinate in common have different projections.
+    // The direction of this line. It is not parallel to a coordinate hyperplane or axis, so points that have some
+    // coordinates in common usually have different projections.
     const glm::dvec4 along(0.5477, 0.4472, 0.5099, 0.4899);
     std::vector<double> place;
     for (const auto& p : points) place.push_back(glm::dot(p, along));
@@ -85,7 +86,8 @@ class PolygonSoupRepairer {
   public:
     PolygonSoupRepairer(PolygonSoup& soup, std::vector<std::string>& warnings) : soup_(soup), warnings_(warnings) {}
 
-    // Merges vertices within `distance` of each other: replaces each group of such vertices by its first vertex.
+    // Merges vertices that are at most `distance` apart: in the 2-faces, replaces each vertex of a group by the first
+    // vertex of the group (see clusterRepresentatives()).
     void mergeVertices(double distance) {
         const auto first = clusterRepresentatives(soup_.vertices, distance);
         std::size_t doubled = 0;
@@ -227,8 +229,9 @@ class PolygonSoupRepairer {
                 sides.emplace_back(std::minmax(loop[k], loop[(k + 1) % loop.size()]), i);
         }
         std::sort(sides.begin(), sides.end());
-        // An edge at which more than two 2-faces meet belongs to several pieces, and does not show which of its 2-faces
-        // belong to the same piece. Only edges of two 2-faces join pieces.
+        // Two 2-faces that meet at an edge belong to the same piece. But if more than two 2-faces meet at an edge,
+        // several pieces meet there, and the edge does not show which of its 2-faces belong together; such an edge is
+        // skipped.
         for (std::size_t i = 0, end = 0; i < sides.size(); i = end) {
             while (end < sides.size() && sides[end].first == sides[i].first) ++end;
             if (end - i == 2) piece[root(sides[i].second)] = root(sides[i + 1].second);

@@ -16,7 +16,8 @@ constexpr double kSingleRounding = 0x1p-24;  // the maximum relative rounding er
 // The least singleEvidence_ at which the coordinates count as single-precision numbers. Coordinates that are not
 // single-precision numbers reach this value with a probability of at most 2^(−kSingleEvidence).
 constexpr double kSingleEvidence = 10;
-constexpr double kMaxExactUnits = 400;  // an extent of at most this many units of the last digit counts as exact
+constexpr double kMaxExactUnits = 400;  // coordinates count as exact if half the diagonal of their bounding box is at
+                                        // most this many units of the last digit
 
 constexpr int kMaxExponent = 10'000;  // the largest absolute value of an exponent; larger exponents are clamped to it
 

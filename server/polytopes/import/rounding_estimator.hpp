@@ -43,12 +43,12 @@ class RoundingEstimator {
 
     glm::dvec4 largest_{0};                            // per axis: the largest absolute value of a coordinate
     int digits_ = 0;                                   // the maximum number of significant digits
-    int lastPlace_ = std::numeric_limits<int>::max();  // the least exponent of ten of any last digit
+    int lastPlace_ = std::numeric_limits<int>::max();  // the least exponent of ten of the last digit of a coordinate
     bool whole_ = true;
-    bool single_ = true;         // whether every coordinate is a single-precision number, to the digits written
+    bool single_ = true;         // whether each coordinate is the rounding of a single-precision number
     glm::dvec4 fromSingle_{0};   // per axis: the largest distance of a coordinate from a single-precision number
-    double singleEvidence_ = 0;  // −log₂ of the probability that random decimals of these lengths would be as near to
-                                 // single precision
+    double singleEvidence_ = 0;  // −log₂ of the probability that random decimals with as many digits would be as near
+                                 // to single-precision numbers
 };
 
 }  // namespace oval4d::polytopes

@@ -82,7 +82,7 @@ class SimplexDivider {
             for (const std::uint32_t v : faces_[t]) apex = std::min(apex, v);
         }
         // `upright` maps an edge that does not contain the apex to the triangle of this edge and the apex. The first
-        // loop adds triangles on the surface of the cell; the second loop adds triangles inside the cell.
+        // loop below adds the triangles on the surface of the cell; the second loop adds those inside the cell.
         std::map<VertexPair, std::uint32_t> upright;
         std::vector<std::pair<std::array<std::uint32_t, 3>, std::uint32_t>> bases;
         for (const std::uint32_t t : triangles) {

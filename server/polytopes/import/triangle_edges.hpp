@@ -1,5 +1,5 @@
 #pragma once
-// The edges of triangles, sorted, to find the triangles that share an edge.
+// Sorts the edges of triangles, so that triangles that share an edge are found next to each other.
 
 #include <algorithm>
 #include <array>

@@ -28,7 +28,7 @@ constexpr float kLevelOpacity = 0.8F;  // the opacity of the lines of levels in 
 // Half the width of the mark of the focus slice (the middle one), as a fraction of the picture's height.
 constexpr double kFocusReach = 0.009;
 
-/// Returns the fraction `fraction` of the picture's height in pixels, rounded to whole pixels, and at least 1.
+/// Returns `fraction` times the height of the picture, in pixels, rounded to an integer; at least 1.
 int wholePixels(double fraction, const scene::Scene& scene) {
     return std::max(1, static_cast<int>(std::lround(fraction * scene.viewport.height)));
 }
@@ -54,9 +54,8 @@ void addLabel(const scene::SlicePlacement& placement, const glm::dmat4& toView, 
     overlay.text(x, baseline, size, placement.label, placement.focus ? style.focusText : style.text);
 }
 
-/// Adds the text HistogramAxes::quantity, which says what the values of a field measure, in the upper left corner of
-/// the histogram. The text has a plate behind it that keeps it legible. Does nothing if the text is wider than the
-/// histogram.
+/// Adds `quantity`, a text that says what the values of a field measure, in the upper left corner of the histogram. A
+/// plate behind the text keeps it legible. Does nothing if the text is wider than the histogram.
 void addQuantity(const std::string& quantity, const PixelRect& histogram, int size, const scene::PictureStyle& style,
                  Overlay& overlay) {
     const auto digits = static_cast<float>(overlay.font().digitHeight(size));
@@ -131,7 +130,7 @@ void addStripAxesAndLines(const scene::Scene& scene, Overlay& overlay, ShapeBatc
         overlay.text(left + thickness / 2, levelOf(-1) - 1.4F * digits, size, std::string_view("xyzw").substr(k, 1),
                      color);
     }
-    if (scene.highlight.empty()) above = nullptr;  // without lines, the mark is added to the overlay
+    if (scene.highlight.empty()) above = nullptr;  // if no lines are drawn, add the mark to the overlay
     const auto lineWidth = static_cast<float>(std::max(1.0, layout.lineWidth * height));
     const auto addLine = [&](const glm::vec2& from, const glm::vec2& to) {
         if (above == nullptr) return overlay.line(from, to, lineWidth, style.highlight);

@@ -12,8 +12,8 @@ namespace oval4d::render {
 /// `overlay`. The place of the symbol is Scene::axes.
 void addAxes(const scene::Scene& scene, ShapeBatch& shapes, Overlay& overlay);
 
-/// Adds the labels of the slices, which show the values of w, to `overlay`. The label of the focus slice (the middle
-/// one) is highlighted, and is added after the others.
+/// Adds the labels of the slices to `overlay`. A label shows the value of w of its slice. The label of the focus slice
+/// (the middle one) is highlighted, and is added after the others.
 void addLabels(const scene::Scene& scene, Overlay& overlay);
 
 /// The lists to which addCoordinatesOverlay() adds strokes. Strokes can be drawn without OpenGL, so long lines and
@@ -25,12 +25,13 @@ struct StrokeTargets {
 };
 
 /// Adds the parallel coordinates of the rotated vertices along the lower edge of the picture. If a density strip or the
-/// histogram of a field is shown instead, ParallelCoordinatesPlot draws it; this function then adds only its axes and
-/// marks and, over a density strip, the lines of the highlighted element. Does nothing if none of these is shown.
+/// histogram of a field is shown instead, ParallelCoordinatesPlot draws it; this function then adds only axes and marks
+/// and, over a density strip, the lines of the highlighted element. Does nothing if the scene shows neither lines nor a
+/// strip nor a histogram.
 ///
 /// Adds to `strokes` what marks the vertices of the highlighted element. For parallel coordinates, these are the bands
 /// behind the lines of the vertices, and the lines of zero behind the bands. Over a density strip, these are the lines
-/// of the vertices, and the mark over these lines.
+/// of the vertices, and the mark of the focus slice, which lies over these lines.
 void addCoordinatesOverlay(const scene::Scene& scene, Overlay& overlay, const StrokeTargets& strokes);
 
 }  // namespace oval4d::render

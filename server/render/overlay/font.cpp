@@ -112,8 +112,8 @@ int Font::width(int size, std::string_view text) {
     return width;
 }
 
-/// Removes the first character from a UTF-8 text, and returns it. Does not check continuation bytes. Returns as a
-/// character of its own the first byte of a truncated sequence, and a continuation byte without a first byte.
+/// Removes the first character from a UTF-8 text, and returns it. Does not check continuation bytes. If the text begins
+/// with a truncated sequence, or with a continuation byte, removes and returns only the first byte.
 char32_t Font::takeCharacter(std::string_view& text) {
     const auto lead = static_cast<unsigned char>(text[0]);
     const std::size_t length = lead >= 0xf0 ? 4 : lead >= 0xe0 ? 3 : lead >= 0xc0 ? 2 : 1;

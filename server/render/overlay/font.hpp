@@ -44,8 +44,8 @@ class Font {
     /// Returns the height of a digit above the baseline in pixels.
     int digitHeight(int size) { return glyph(size, U'0').top; }
 
-    /// Removes all glyphs if the texture has become large: many glyphs may have sizes that are no longer used. Must not
-    /// be called while a picture uses glyphs.
+    /// Removes all glyphs if the texture has become large, because many of its glyphs may have sizes that are no longer
+    /// used. Must not be called while a picture uses glyphs.
     void clearIfLarge();
 
     /// Binds the texture to the active texture unit. Uploads the texture if there are new glyphs.

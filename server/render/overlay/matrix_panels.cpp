@@ -73,8 +73,8 @@ class SectionPanelPainter {
         overlay_.text(name.x, name.y - 1.8F * digits, size, unit, color);
     }
 
-    // Returns the pixel at which the current panel shows a point of a section. `p` has the coordinates of the point
-    // along the first and the second axis of the section, in the units of the object.
+    // Returns the pixel at which the current panel shows the point `p` of a section. `p` has the coordinates of the
+    // point along the first and the second axis of the section, in the units of the object.
     glm::vec2 pixelOf(const glm::dvec2& p) const {
         return center_ + pixelsPerUnit_ * (transposed_ ? glm::dvec2(p.y, p.x) : p);
     }

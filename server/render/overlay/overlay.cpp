@@ -86,7 +86,7 @@ void Overlay::quad(const PixelRect& place, const OverlayVertex& vertex, const Pi
 
 void Overlay::box(const PixelRect& box, scene::Color color, float opacity, float cornerRadius) {
     const glm::vec2 half{0.5f * (box.right - box.left), 0.5f * (box.top - box.bottom)};
-    const float x = half.x + 0.5f, y = half.y + 0.5f;  // includes half a pixel of margin for the antialiased edge
+    const float x = half.x + 0.5f, y = half.y + 0.5f;  // including a margin of half a pixel for the antialiased edge
     const OverlayVertex vertex{.box = {half, std::min({cornerRadius, half.x, half.y})}, .color = rgba(color, opacity)};
     quad({box.left - 0.5f, box.bottom - 0.5f, box.right + 0.5f, box.top + 0.5f}, vertex, {-x, -y, x, y},
          {0.5f, 0.5f, 0.5f, 0.5f});
@@ -96,7 +96,7 @@ void Overlay::line(glm::vec2 from, glm::vec2 to, float width, scene::Color color
     const float length = glm::distance(from, to);
     const glm::vec2 along = length > 0 ? (to - from) / length : glm::vec2(1, 0), across{-along.y, along.x};
     const glm::vec2 half{0.5F * (length + width), 0.5F * width},
-        reach = half + 0.5F;  // includes room for the antialiased edge
+        reach = half + 0.5F;  // including half a pixel for the antialiased edge
     const OverlayVertex vertex{.box = {half, half.y}, .color = rgba(color, opacity)};
     const auto first = static_cast<std::uint32_t>(vertices_.size());
     for (const auto& [x, y] : {std::pair(-1, -1), {1, -1}, {-1, 1}, {1, 1}}) {

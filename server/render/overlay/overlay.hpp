@@ -48,8 +48,8 @@ class Overlay {
     /// Adds a straight line with round ends, `width` pixels wide.
     void line(glm::vec2 from, glm::vec2 to, float width, scene::Color color, float opacity = 1);
 
-    /// Adds a convex polygon. The edges of the polygon are not antialiased; the caller can hide this by lines over the
-    /// edges.
+    /// Adds a convex polygon. The edges of the polygon are not antialiased; the caller can hide the jagged edges by
+    /// lines over them.
     void polygon(std::span<const glm::vec2> corners, scene::Color color, float opacity = 1);
 
     /// Adds a line of UTF-8 text. The text is centered at x, with its baseline at y. `size` is the height of the em

@@ -7,14 +7,15 @@
 
 #include <cstddef>
 
-/// Marks a function that is compiled for processors with AVX2 and FMA. It must be called only on such processors.
+/// Marks a function that is compiled for processors with AVX2 and FMA. The function must be called only on such
+/// processors.
 #define OVAL4D_AVX2 __attribute__((target("avx2,fma")))
 
 namespace oval4d::render {
 
 /// Returns base^exponent for eight bases. `exponent` must be at least 1.
 OVAL4D_AVX2 inline __m256 power(__m256 base, unsigned exponent) {
-    if (exponent == 32) {  // the exponent of the default style is computed without a loop
+    if (exponent == 32) {  // a faster case for the exponent of the default style
         base = _mm256_mul_ps(base, base);
         base = _mm256_mul_ps(base, base);
         base = _mm256_mul_ps(base, base);

@@ -17,14 +17,14 @@ namespace oval4d::render {
 /// Adds the shapes of convex slices to a batch, from back to front. The slices are added from far to near. In each
 /// slice, this is the order:
 /// - the faces that are turned away from the eye;
-/// - the bars and balls that belong only to such faces;
+/// - the bars and balls that belong only to faces turned away from the eye;
 /// - the faces that are turned toward the eye;
-/// - the bars and balls that belong to at least one of the latter faces.
+/// - the bars and balls that belong to at least one face turned toward the eye.
 /// This order is correct if slices do not overlap in space. Reuses its memory for the next picture.
 class ConvexShapeCollector {
   public:
-    /// Adds all visible slices to `out`, as the camera of the scene sees them. Calls `painted` after each slice. The
-    /// function `painted` may draw the shapes in `out` and clear `out`.
+    /// Adds all visible slices to `out`, as the camera of the scene sees them. Calls `painted` after each slice; this
+    /// function may draw the shapes in `out` and clear `out`.
     void collect(const scene::Scene& scene, ShapeBatch& out, const std::function<void()>& painted);
 
   private:
@@ -42,9 +42,10 @@ class ConvexShapeCollector {
     // The points and normals of the current slice and the corners of the current face, in view coordinates.
     std::vector<glm::vec3> points_, corners_, normals_;
     std::vector<FacingDirection> faceSide_, edgeSide_, vertexSide_;
-    // order_: the vertices from far to near. rank_: per vertex, its index in order_.
+    // order_ has the vertices of the current slice from far to near. rank_ has, for each vertex, its index in order_.
     std::vector<std::uint32_t> order_, rank_;
-    std::vector<std::uint32_t> edgeBegin_, edgeOrder_;  // the edges, grouped by the rank of their farther vertex
+    std::vector<std::uint32_t> edgeBegin_, edgeOrder_;  // edgeOrder_: the edges, ordered by the rank of their farther
+                                                        // vertex; edgeBegin_: per rank, where its edges begin
 };
 
 }  // namespace oval4d::render

@@ -11,12 +11,12 @@
 
 namespace oval4d::render {
 
-/// Sorts shapes from far to near with a radix sort. Reuses its memory.
+/// Sorts shapes from far to near with a radix sort. Reuses its memory for the next list.
 class DepthSorter {
   public:
     /// A shape of a list, with the key by which it is sorted.
     struct KeyedShape {
-        std::uint32_t key;    ///< the key increases as the depth of the shape decreases
+        std::uint32_t key;    ///< a number that increases as the depth of the shape decreases
         std::uint32_t index;  ///< the index of the shape in the list
     };
 
@@ -39,15 +39,15 @@ class DepthSorter {
     }
 
     // Returns a number that increases as `depth` decreases. The bits of floats with the same sign are ordered as their
-    // absolute values. 0 is added so that −0 becomes 0, which it equals.
+    // absolute values. Adding 0 turns −0 into 0, so that both have the same key.
     static std::uint32_t sortKeyOf(float depth) {
         constexpr std::uint32_t kSign = 1U << 31;
         const auto bits = std::bit_cast<std::uint32_t>(depth + 0.0F);
         return (bits & kSign) != 0 ? bits : ~(bits | kSign);
     }
 
-    // Sorts by one digit of the keys after another, from the lowest digit on. Each pass keeps the order of entries with
-    // equal digits.
+    // Sorts entries_ by one digit of the keys after another, beginning with the lowest digit. Each pass keeps the order
+    // of entries with equal digits.
     void sort() {
         if (entries_.empty()) return;
         std::array<std::array<std::uint32_t, std::size_t{1} << kDigitBits>, kDigits> counts{};
@@ -56,7 +56,7 @@ class DepthSorter {
         sorted_.resize(entries_.size());
         for (std::size_t digit = 0; digit < kDigits; ++digit) {
             auto& places = counts[digit];
-            // All keys have the same digit.
+            // If all keys have the same digit here, the pass would change nothing.
             if (places[digitOf(entries_.front().key, digit)] == entries_.size()) continue;
             std::uint32_t next = 0;
             for (std::uint32_t& place : places) next += std::exchange(place, next);

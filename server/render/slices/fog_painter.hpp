@@ -35,8 +35,8 @@ class FogPainter {
     /// the range of distances from the eye that the depth buffer covers.
     void begin(const scene::Scene& scene, DepthRange range);
 
-    /// The kinds of shapes that hide fog: `frame` are the balls and bars, whose antialiased edges are translucent, and
-    /// `surfaces` are the surfaces of the field.
+    /// The kinds of shapes that hide fog: `frame` stands for the balls and bars, whose antialiased edges are
+    /// translucent, and `surfaces` for the surfaces of the field.
     enum class FogOccluders : std::uint8_t { frame, surfaces };
     /// Copies the depth buffer to a texture for later calls of draw(). All shapes of the kind `occluders`, and no
     /// shapes of the other kind, must have been drawn to the depth buffer.
@@ -56,10 +56,10 @@ class FogPainter {
     void freeMemory() { texels_ = blockTexels_ = {}; }
 
   private:
-    // A corner of the box that the fog lattice of a slice fills. The box is drawn so that the shader runs for its
-    // pixels.
+    // A corner of the box that the fog lattice of a slice fills. Drawing the box runs the shader for the pixels that
+    // the box covers.
     struct BoxCorner {
-        glm::vec3 clip;   // the clip coordinates x, y and w of the corner
+        glm::vec3 clip;   // the clip coordinates x, y and, in clip.z, w
         glm::vec3 place;  // the coordinates of the corner in the slice, in circumradii
     };
     void uploadLattice(const slicing::SliceFog& fog);

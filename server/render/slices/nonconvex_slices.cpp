@@ -50,7 +50,8 @@ void NonconvexShapeCollector::collect(const scene::Scene& scene, Layers& out) {
     paintAll(faded_, out.faded);
 }
 
-// Collects the shapes of a slice. Extends `depths` to include the depths of the vertices of the slice.
+// Collects the shapes of a slice, except hidden ones. Extends `depths` to include the depths of the vertices of the
+// slice.
 void NonconvexShapeCollector::collectShapesOf(const SliceRef& slice, DepthRange& depths) {
     const scene::Scene& scene = slice.scene;
     const auto number = static_cast<std::uint32_t>(slice.number);

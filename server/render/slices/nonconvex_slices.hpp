@@ -11,7 +11,7 @@
 
 namespace oval4d::render {
 
-/// Sorts the shapes of slices, which may be nonconvex, into layers, and converts them to patches (flat polygons).
+/// Sorts the shapes of slices that may be nonconvex into layers, and converts the shapes to patches (flat polygons).
 /// Reuses its memory for the next picture.
 class NonconvexShapeCollector {
   public:

@@ -13,8 +13,8 @@ namespace oval4d::render {
 
 namespace {
 
-// The corners of a quad may deviate by this many pixels from those of a parallelogram. A quad that deviates more is
-// drawn as two triangles.
+// A quad counts as a parallelogram if its fourth corner is at most this many pixels, in x and in y, away from the
+// fourth corner of the parallelogram with the same first three corners. Other quads are drawn as two triangles.
 constexpr float kMaxSkew = 0.2F;
 constexpr int kLanes = PatchCanvas::kLanes;
 
@@ -29,7 +29,7 @@ struct LinearFunction {
 
 /// The properties that all pixels of a patch (a flat polygon) have in common.
 struct PatchShading {
-    /// `u`, `v` and `halfRadius` are the three components of ShapeVertex::place. `nearness` is that of PatchCorner.
+    /// `u`, `v` and `halfRadius` are the three components of ShapeVertex::place. `nearness` is PatchCorner::nearness.
     LinearFunction u{}, v{}, halfRadius{}, nearness{};
     glm::vec3 diffuse, specular;  ///< the same as in ShapeVertex
     glm::vec3 color;              ///< R, G and B, 0 … 255
@@ -40,8 +40,8 @@ struct PatchShading {
 // Returns the numbers of the eight lanes: 0 … 7.
 OVAL4D_AVX2 inline __m256i laneIndices() { return _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7); }
 
-// Returns a mask for eight pixels of a row, whose first pixel is in column `at`. All bits of a pixel are set if its
-// column is in begin … end − 1.
+// Returns a mask for eight neighboring pixels of a row, the first of which is in column `at`. In the mask, all bits of
+// a pixel are set if its column is in begin … end − 1.
 OVAL4D_AVX2 inline __m256i columnRangeMask(int begin, int end, int at) {
     const __m256i x = _mm256_add_epi32(_mm256_set1_epi32(at), laneIndices());
     return _mm256_andnot_si256(_mm256_cmpgt_epi32(_mm256_set1_epi32(begin), x),
@@ -130,9 +130,9 @@ struct PixelsOfTwoRows {
     }
 };
 
-// Draws eight pixels of a patch (a flat polygon). `start` has the values at the first pixel, and `offsets` says how
-// many columns each pixel is to the right of it. In `inside`, all bits of a pixel are set if the pixel is in the patch.
-// The formulas are those of the fragment shader in shape_batch.cpp.
+// Draws eight pixels of a patch (a flat polygon). `start` has the values at the first pixel of each row, and `offsets`
+// says how many columns each of the eight pixels is to the right of the first pixel of its row. In `inside`, all bits
+// of a pixel are set if the pixel is in the patch. The formulas are those of the fragment shader in shape_batch.cpp.
 template <Form form, DepthUse depth, typename Pixels>
 OVAL4D_AVX2 inline void fillPixels(const PatchCanvas& canvas, const PatchShading& paint, const Pixels& pixels,
                                    const RowStartValues& start, __m256i offsets, __m256 inside) {
@@ -239,8 +239,8 @@ OVAL4D_AVX2 void fillShape(const PatchCanvas& canvas, const RowRange& rows, cons
 
 // Blends a face with the picture, without writing depths. All pixels of a face have the same color, so integers
 // suffice: the result is (255 − α) · pixel + α · color, divided by 255 and rounded exactly. α is from 0 to 255. With
-// `tested`, only pixels are blended in this way where the face is nearer than all solid shapes, or where there is no
-// solid shape: most pixels.
+// `tested`, fillPixels() draws each group of eight pixels in which a solid shape is nearer than the face at one pixel
+// at least. Most groups have no such pixel.
 template <DepthUse depth>
 OVAL4D_AVX2 void fillFace(const PatchCanvas& canvas, const RowRange& rows, const PatchShading& paint) {
     static_assert(depth != DepthUse::written);
@@ -268,7 +268,7 @@ OVAL4D_AVX2 void fillFace(const PatchCanvas& canvas, const RowRange& rows, const
                 const __m256i coverage = _mm256_and_si256(_mm256_castps_si256(solid), _mm256_set1_epi32(kCoverageBits));
                 const __m256 isVisible = _mm256_or_ps(_mm256_cmp_ps(nearness, solid, _CMP_GT_OQ),
                                                       _mm256_castsi256_ps(_mm256_cmpeq_epi32(coverage, zero)));
-                // Somewhere in the face, a solid shape is nearer.
+                // If a solid shape is nearer at one of these pixels at least, fillPixels() draws all of them.
                 if (_mm256_testc_ps(isVisible, _mm256_castsi256_ps(inside)) == 0) {
                     fillPixels<Form::face, depth>(canvas, paint, pixels, start, laneIndices(),
                                                   _mm256_castsi256_ps(inside));
@@ -328,8 +328,8 @@ OVAL4D_AVX2 RowRange findCoveredRows(const PatchCanvas& canvas, std::span<const 
     return rows;
 }
 
-// Returns the nearness of a face as a linear function. A fan of triangles divides the face. The gradient of the
-// function is the mean of the gradients in these triangles, weighted by their areas. `area` is twice the signed area of
+// Returns the nearness of a face as a linear function. The gradient of the function is the mean of the gradients in the
+// triangles of a fan that divides the face, weighted by the areas of the triangles. `area` is twice the signed area of
 // the polygon.
 OVAL4D_AVX2 LinearFunction nearnessPlaneOf(std::span<const PatchCorner> corners, float area) {
     const PatchCorner& first = corners[0];
@@ -385,9 +385,9 @@ OVAL4D_AVX2 void drawFace(const PatchCanvas& canvas, std::span<const PatchCorner
     fillShape<Form::face, DepthUse::written>(canvas, rows, paint);
 }
 
-// Draws a patch (a flat polygon) of any form except Form::face. The patch has three corners, or four corners that
-// deviate from a parallelogram by at most kMaxSkew pixels. So ShapeVertex::place and the nearness count as linear in
-// the picture.
+// Draws a patch (a flat polygon) of any form except Form::face. The patch must be a triangle, or a parallelogram to
+// within kMaxSkew pixels. So ShapeVertex::place and the nearness count as linear functions of the position in the
+// picture.
 OVAL4D_AVX2 void drawQuad(const PatchCanvas& canvas, std::span<const PatchCorner> corners, const ShapeVertex& look,
                           Form form, DepthUse depth, float pixelSize) {
     // The gradient of a quantity is computed from its differences along the diagonals of the quad. A triangle counts as

@@ -36,18 +36,18 @@ struct PatchCanvas {
     int width = 0, height = 0;
     RowRange rows{0, 0};              ///< the range of rows that are drawn
     std::uint32_t* pixels = nullptr;  ///< the whole picture in RGBA, with the bottom row first
-    float* nearness = nullptr;        ///< the depth buffer of the whole picture (see kCoverageBits)
+    float* nearness = nullptr;        ///< the depth buffer of the whole picture (see kCoverageBits in depth_buffer.hpp)
     /// In row y, the current patch covers the pixels left[y] … right[y] − 1. The arrays have kLanes more entries than
     /// there are rows, because rows are computed kLanes at a time.
     int *left = nullptr, *right = nullptr;
     float ambient = 0, gloss = 0;  ///< the intensities of ambient light, 0 … 1, and of specular light, 0 … 255
     unsigned shininess = 1;
-    bool opaque = true;  ///< whether the background is opaque, so that every pixel is
+    bool opaque = true;  ///< whether the background is opaque; if so, every pixel stays opaque
 };
 
 /// Draws a patch of the form `form`, a convex polygon. All vertices must be in front of the eye. `corners` is working
-/// memory with as many entries as `vertices`. `pixelSize` is the size of a pixel, in view coordinates, at the distance
-/// 1 from the eye.
+/// memory that must have as many entries as `vertices`. `pixelSize` is the size of a pixel, in view coordinates, at the
+/// distance 1 from the eye.
 OVAL4D_AVX2 void drawPatch(const PatchCanvas& canvas, std::span<const ShapeVertex> vertices,
                            std::span<PatchCorner> corners, Patch::Form form, ShapeRasterizer::DepthUse depth,
                            float pixelSize);

@@ -141,8 +141,8 @@ void ProjectionShapeCollector::addPolygon(scene::Color color, float opacity, Sha
     out.addFace(corners_, length > 0 ? area / length : glm::vec3(0, 0, 1), color, opacity, false);
 }
 
-// The rectangle is computed from the vertices of the shapes, not from ProjectionPlacement::radius, for two reasons: far
-// from the view axis, the image of a sphere is an ellipse, and balls of a cloud may extend beyond the sphere.
+// The rectangle is computed from the vertices of the shapes, not from ProjectionPlacement::radius, for two reasons. Far
+// from the view axis, the image of a sphere is an ellipse. And balls of a cloud may extend beyond the sphere.
 PixelArea ProjectionShapeCollector::Layers::pixelArea(scene::Viewport viewport) const {
     const glm::vec2 most(viewport.width, viewport.height);
     glm::vec2 least(1), greatest(-1);

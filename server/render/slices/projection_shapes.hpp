@@ -13,10 +13,10 @@
 
 namespace oval4d::render {
 
-/// Sorts the shapes of the projection of the whole object, and of the sections that are shown in it, into layers, and
-/// converts them to patches (flat polygons). Drawing the layers needs a depth buffer, because bars of the projection
-/// cross each other everywhere in the picture. The projection must be drawn before the slices, which must cover it
-/// wherever they are drawn. Reuses its memory for the next picture.
+/// Converts the shapes of the projection of the whole object, and of the sections that are shown in the projection, to
+/// patches (flat polygons), and sorts them into layers. Drawing the layers needs a depth buffer, because bars of the
+/// projection cross each other everywhere in the picture. The projection must be drawn before the slices, because a
+/// slice must cover the projection wherever both overlap. Reuses its memory for the next picture.
 class ProjectionShapeCollector {
   public:
     /// The layers, in drawing order, each from far to near. `solid` has the opaque balls and bars of the object.
@@ -52,7 +52,7 @@ class ProjectionShapeCollector {
     // In view coordinates: the vertices of the projection, the corners of its filled faces, and the corners of the
     // current polygon.
     std::vector<glm::vec3> points_, fillPoints_, corners_;
-    std::vector<ProjectedShape> solid_, translucent_;  // shapes, each given by its part, its kind and its number
+    std::vector<ProjectedShape> solid_, translucent_;  // the shapes of the two layers
     DepthSorter order_;
 };
 

@@ -21,10 +21,10 @@ namespace {
 // radius, but with a lower opacity.
 constexpr float kMinRadius = 0.6f;
 constexpr float kMinAlpha = 0.02f;  // shapes with a lower opacity are not drawn
-// In pixels; a bar with a smaller radius has no foot (see ShapeBatch::addBarFromFarEnd()).
+// The minimum radius of a bar with a foot, in pixels (see ShapeBatch::addBarFromFarEnd()).
 constexpr float kMinFootRadius = 1.8f;
 
-/// The changes to a shape whose radius, in pixels, is increased to kMinRadius if it is less.
+/// How a shape is changed so that its radius is at least kMinRadius pixels.
 struct ClampedRadius {
     float scale;          ///< the factor by which the radius is multiplied
     float opacityFactor;  ///< the factor by which the opacity is multiplied
@@ -93,7 +93,7 @@ void ShapeBatch::addBall(const glm::vec3& center, float radius, scene::Color col
     const glm::vec3 y = glm::cross(z, x);
 
     // The radius of the silhouette: at the center of the ball, the radius of the cone from the eye that is tangent to
-    // the ball. It includes room for the antialiased edge.
+    // the ball. The factor size.edgeU adds room for the antialiased edge.
     const float silhouette = radius * size.scale * std::sqrt(distance2 / inside2) * size.edgeU;
     const glm::vec3 c = projection_.clipXyw(center), dx = projection_.clipXyw(x) * silhouette,
                     dy = projection_.clipXyw(y) * silhouette;
@@ -115,7 +115,7 @@ void ShapeBatch::addBarFromFarEnd(const glm::vec3& from, const glm::vec3& to, fl
     const glm::vec3 axis = to - from;
     const glm::vec3 n = glm::cross(from, to);
     const float n2 = glm::dot(n, n), axis2 = glm::dot(axis, axis), inside2 = n2 - radius * radius * axis2;
-    if (inside2 <= 0) return;  // the view is along the axis of the bar, so the ball at the near end hides the bar
+    if (inside2 <= 0) return;  // the eye looks along the axis of the bar, so the ball at the near end hides the bar
     const ClampedRadius size = clampedRadius(radius * projection_.focalLengthInPixels() / (-0.5f * (from.z + to.z)), 1);
     if (size.opacityFactor * opacity < kMinAlpha) return;
     const glm::vec3 x = n / std::sqrt(n2);

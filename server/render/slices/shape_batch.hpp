@@ -21,17 +21,17 @@ namespace oval4d::render {
 /// - ball: the patch covers the unit disk of (u, v), and Z points to the eye;
 /// - bar: u runs across the bar from −1 to 1, and v = 0;
 /// - face: u = v = 0, so the normal is Z everywhere.
-/// The vertices hold the dot products of X, Y and Z with the direction to the light L and with the half vector H. So
-/// the shader need not compute normals.
+/// The vertices hold the dot products of X, Y and Z with the direction L to the light, and with the half vector H,
+/// which points halfway between L and the direction to the eye. So the shader need not compute normals.
 struct ShapeVertex {
-    glm::vec3 clip;  ///< the clip coordinates x, y and w
+    glm::vec3 clip;  ///< the clip coordinates x, y and, in clip.z, w
     /// u, v and r/2, where r is the radius of the shape in pixels. The shape covers the fraction (1 − u² − v²) · r/2 +
     /// ½ of the pixel, clamped to 0 … 1. A face has ½ instead of r/2, so that it covers whole pixels. At the outer edge
     /// of its soft rim, it has −½, so that it covers nothing. A stroke has half its width at its axis, and −½ at its
     /// outer edges.
     glm::vec3 place;
-    glm::vec3 diffuse;    ///< X·L, Y·L, Z·L, times the diffuse intensity
-    glm::vec3 specular;   ///< the dot products X·H, Y·H and Z·H of the axes with the half vector H
+    glm::vec3 diffuse;    ///< the dot products X·L, Y·L and Z·L, times the diffuse intensity
+    glm::vec3 specular;   ///< the dot products X·H, Y·H and Z·H
     std::uint32_t color;  ///< the color, as returned by rgba()
 };
 
@@ -59,7 +59,7 @@ struct Patch {
 /// and radii are in view coordinates (see ViewProjection); opacities are from 0 to 1.
 class ShapeBatch {
   public:
-    /// Starts an empty list of shapes. Their light is that of `style`.
+    /// Starts an empty list of shapes. The shapes are lit as `style` says.
     void begin(const scene::PictureStyle& style);
 
     /// Removes all shapes. Keeps the light and the projection.
@@ -83,9 +83,9 @@ class ShapeBatch {
     void addFace(std::span<const glm::vec3> corners, const glm::vec3& normal, scene::Color color, float opacity,
                  bool soft);
 
-    /// Adds a stroke: a straight line with flat ends and antialiased sides. Light does not change its color. `from`,
-    /// `to` and `width` are in pixels, counted from the lower left corner of the picture. Of the projection, only the
-    /// size of the picture matters. Does nothing if `from` and `to` are equal.
+    /// Adds a stroke: a straight line with flat ends and antialiased sides. The color of a stroke does not depend on
+    /// the light. `from`, `to` and `width` are in pixels, counted from the lower left corner of the picture. Of the
+    /// projection of this batch, only the size of the picture matters. Does nothing if `from` and `to` are equal.
     void addStroke(glm::vec2 from, glm::vec2 to, float width, scene::Color color, float opacity = 1);
 
     const ViewProjection& projection() const { return projection_; }
@@ -117,7 +117,7 @@ struct DepthRange {
     }
 };
 
-/// The shader program that draws a ShapeBatch. The light is that of the style.
+/// The shader program that draws a ShapeBatch. The shapes are lit as the style says.
 class ShapeProgram {
   public:
     /// The depths that drawWithDepth() writes to the depth buffer.

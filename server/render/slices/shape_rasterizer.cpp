@@ -137,7 +137,7 @@ void ShapeRasterizer::drawAdded(parallel::ForkJoin* forkJoin) {
 // Returns the mean row of the shapes. The parts of the picture below and above this row take about the same time to
 // draw.
 int ShapeRasterizer::Impl::middleRow() const {
-    // The sum of the heights of the shapes, from 0 at the lower edge of the picture to 1 at the upper edge.
+    // The sum of the vertical positions of the shapes; 0 is the lower edge of the picture, and 1 the upper edge.
     double sum = 0;
     std::size_t count = 0;
     for (const AddedShapes& layer : layers) {
@@ -186,8 +186,8 @@ void ShapeRasterizer::Impl::clearDepth(const RowRange& rows, const PixelArea& ar
 
 void ShapeRasterizer::Impl::drawPatches(const PatchCanvas& part, const AddedShapes& layer, Workspace& workspace) const {
     const float pixelSize = 1 / layer.shapes->projection().focalLengthInPixels();
-    // The heights in the picture between which shapes may touch the drawn rows. They include room for the antialiased
-    // edge, for which corners are moved by a pixel.
+    // Only shapes between the heights `lower` and `upper` (from −1 to 1 in the picture) may touch the drawn rows. These
+    // heights leave room for antialiased edges, for which corners are moved by a pixel.
     constexpr int kRoom = 2;
     const auto heightOf = [&](int row) { return 2 * static_cast<float>(row) / static_cast<float>(canvas.height) - 1; };
     const float lower = heightOf(part.rows.begin - kRoom), upper = heightOf(part.rows.end + kRoom);

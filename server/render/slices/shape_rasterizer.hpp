@@ -21,18 +21,18 @@ struct PixelArea {
 };
 
 /// Draws the patches of a ShapeBatch (flat polygons that represent shapes) as ShapeProgram draws them, but without
-/// OpenGL. It is several times faster than llvmpipe, Mesa's rasterizer, for two reasons. Each patch is one convex
-/// polygon, so that no pixel is shaded twice at the diagonal of a quad. And polygons are not sorted into bins. Draws
-/// the surfaces of fields with a SurfaceRasterizer; surfaces and shapes share one depth buffer. Reuses its memory for
-/// the next picture.
+/// OpenGL. Drawing is several times faster than with llvmpipe, Mesa's rasterizer, for two reasons. Each patch is one
+/// convex polygon, so that no pixel is shaded twice at the diagonal of a quad. And polygons are not sorted into bins.
+/// Draws the surfaces of fields with a SurfaceRasterizer; surfaces and shapes share one depth buffer. Reuses its memory
+/// for the next picture.
 class ShapeRasterizer {
   public:
     /// The way in which shapes use the depth buffer.
     enum class DepthUse : std::uint8_t {
         unused,  ///< the depth buffer is neither read nor written
         /// The depth buffer is read, not written. A nearer shape that was drawn with `written`, or a nearer opaque
-        /// surface, hides the new shape: the new shape changes only the part of each pixel that the nearer one leaves
-        /// uncovered. Faces count as closer to the eye by the size of a pixel.
+        /// surface, hides the new shape. The new shape then changes only the part of each pixel that the nearer one
+        /// leaves uncovered. Faces count as closer to the eye by the size of a pixel.
         tested,
         written,  ///< the depth buffer is read as with `tested`, and written; faces have exactly their own depth
     };

@@ -14,8 +14,8 @@
 
 namespace oval4d::render {
 
-/// A reference to one slice of a scene. The arguments v, e and f of its functions are indices of vertices, edges and
-/// faces within the slice.
+/// A reference to one slice of a scene. The parameters v, e and f of its functions are the indices of a vertex, an edge
+/// and a face within the slice.
 struct SliceRef {
     const slicing::SliceSet& set;
     const scene::Scene& scene;
@@ -82,7 +82,7 @@ class SliceTransform {
     glm::vec3 origin_;
 };
 
-/// The appearance of balls and bars. Lengths are in world units. `ballRadius` and `ballColor` are those of
+/// The appearance of balls and bars. Lengths are in world units. `ballRadius` and `ballColor` are the results of
 /// Scene::drawnBallRadius() and Scene::drawnBallColor().
 struct SkeletonStyle {
     bool balls, bars;

@@ -77,7 +77,7 @@ void SurfaceBatch::collect(const scene::Scene& scene, DepthRange& depths, Select
     }
 }
 
-// Removes from order_ the slices that do not belong to the half `half`: to the nearer or to the farther slices.
+// Removes from order_ the slices that do not belong to `half`, the nearer or the farther slices.
 void SurfaceBatch::keepOnlySlicesIn(const scene::Scene& scene, Selection half) {
     const auto triangles = [&](const SurfacePlacement& place) {
         return scene.placements[place.slice].drawn ? scene.slices->surfaces[place.slice].triangles.size() : 0;
@@ -114,9 +114,9 @@ void SurfaceBatch::addLevel(const scene::Scene& scene, std::size_t slice, const 
         }
         return number_[point];
     };
-    // Triangles of a cap that lie in the same wall of the domain share vertices. Their normals are equal except for
-    // rounding, which changes the light less than one step of a color. Where walls meet, each wall gets vertices of its
-    // own.
+    // Triangles of a cap that lie in the same wall of the domain share vertices. The normals of these triangles differ
+    // only by rounding errors, which change a lit color by less than one step of 255. Where walls meet, each wall gets
+    // vertices of its own.
     if (level.caps) capNumber_.assign(surface.points.size(), kNone);
     const auto capVertex = [&](std::uint32_t point, const glm::vec3& flat) {
         constexpr float kSame = 5e-4F;

@@ -16,17 +16,17 @@ namespace oval4d::render {
 
 /// A vertex of a surface.
 struct SurfaceVertex {
-    glm::vec3 clip;       ///< the clip coordinates x, y and w
+    glm::vec3 clip;       ///< the clip coordinates x, y and, in clip.z, w
     glm::vec3 normal;     ///< the normal in view coordinates, toward the eye
     std::uint32_t color;  ///< the color, as returned by rgba(), not multiplied by alpha
 };
 
-/// The triangles of all surfaces of a scene, in drawing order. Reuses its memory for the next picture.
+/// The triangles of the surfaces of a scene, in drawing order. Reuses its memory for the next picture.
 class SurfaceBatch {
   public:
-    /// The slices whose surfaces are collected: all slices, only the nearer slices, or only the farther slices.
-    /// `projection` stands for the surfaces of the focus slice (the middle one) that the projection of the whole object
-    /// shows. The nearer and the farther slices have about half of the triangles each.
+    /// The slices whose surfaces are collected: all slices, only the nearer slices, or only the farther slices. The
+    /// nearer and the farther slices have about half of the triangles each. `projection` stands for the surfaces of the
+    /// focus slice (the middle one) as the projection of the whole object shows them.
     enum class Selection : std::uint8_t { slices, nearer_slices, farther_slices, projection };
 
     /// The place of one slice, with its surfaces, in the picture.
@@ -37,10 +37,11 @@ class SurfaceBatch {
     };
 
     /// Collects surfaces of a scene. Afterward, opaqueIndices() has the opaque surfaces, from the nearest slice to the
-    /// farthest. If caps close a surface, the surface hides its own triangles that face away from the eye; these are
-    /// left out. translucentIndices() has the translucent surfaces, from the farthest slice to the nearest. Within a
-    /// slice, they are ordered from the innermost level to the outermost; within a level, the triangles that face away
-    /// from the eye come first. Extends `depths` to include the depths of the surfaces.
+    /// farthest. If caps (parts of the domain's boundary) close a surface, the surface hides its own triangles that
+    /// face away from the eye; these triangles are left out. translucentIndices() has the translucent surfaces, from
+    /// the farthest slice to the nearest. Within a slice, they are ordered from the innermost level to the outermost;
+    /// within a level, the triangles that face away from the eye come first. Extends `depths` to include the depths of
+    /// the surfaces.
     ///
     /// The silhouettes of closed opaque surfaces get fringes: strips outside of the silhouettes, one pixel wide, whose
     /// opacity decreases outward to 0. Blended with what is behind them, the fringes antialias the silhouettes.
@@ -92,7 +93,8 @@ class SurfaceBatch {
     // Per point: 1 if the point belongs to a triangle that faces away from the eye, else 0.
     std::vector<std::uint8_t> touchesBack_;
     std::vector<SilhouetteEdge> silhouette_;  // the edges of the silhouette of the current level in the current slice
-    // Per point of the silhouette: a vector that points away from the surface, in the picture.
+    // Per point of the silhouette: a vector in the picture that points away from the surface; its length does not
+    // matter.
     std::vector<glm::vec2> outward_;
 };
 
@@ -107,8 +109,8 @@ class SurfaceProgram {
 
     /// Copies triangles of `surfaces`, given by three indices of vertices each, for later calls of drawIndexRange().
     void uploadTriangles(DepthRange range, const SurfaceBatch& surfaces, const std::vector<std::uint32_t>& indices);
-    /// Draws the triangles whose corners are the entries `begin` … `end` − 1 of the indices that were loaded last. The
-    /// depth test must be enabled.
+    /// Draws the triangles whose corners are the entries `begin` … `end` − 1 of the indices that uploadTriangles() has
+    /// copied last. The depth test must be enabled.
     void drawIndexRange(std::size_t begin, std::size_t end) { program_.drawIndexRange(begin, end); }
 
   private:

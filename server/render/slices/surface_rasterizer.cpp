@@ -103,7 +103,7 @@ struct alignas(32) TriangleSetup {
     FloatLanes xPQ, xQR, xPR, stepPQ, stepQR, stepPR;
     // Factors from which gradients are computed. If a quantity has the values a, b and c at the corners, in the order
     // of the indices, its derivative d/dx is (b − a) · xB + (c − a) · xC. For d/dy, the factors are yB and yC. The
-    // first corner is at (originX, originY), relative to the center of the pixel (0, 0).
+    // corner with the value a is at (originX, originY), relative to the center of the pixel (0, 0).
     FloatLanes xB, xC, yB, yC, originX, originY;
 };
 
@@ -127,7 +127,7 @@ OVAL4D_AVX2 inline __m256i clampToInt(__m256 number, float least, float greatest
     return _mm256_cvttps_epi32(_mm256_min_ps(_mm256_max_ps(number, _mm256_set1_ps(least)), _mm256_set1_ps(greatest)));
 }
 
-// Masks with one bit for each of eight triangles: which of them may cover pixels.
+// Two masks, each with one bit for each of eight triangles.
 struct TriangleMasks {
     unsigned drawn;    // set if the bounding box contains the center of a pixel, and no corner has a position of NaN
     unsigned clipped;  // set if a corner has a position of NaN, because it is behind the eye or too close to it
@@ -143,8 +143,8 @@ OVAL4D_AVX2 inline TriangleCorners cornersOf(const std::uint32_t* indices) {
     const auto* const from = reinterpret_cast<const __m256i*>(indices);
     const __m256i first = _mm256_loadu_si256(from), second = _mm256_loadu_si256(from + 1),
                   third = _mm256_loadu_si256(from + 2);
-    // The index of corner k of triangle i is entry 3 i + k of 24 entries. So it is at place (3 i + k) mod 8 in one of
-    // three registers.
+    // The index of corner k of triangle i is entry 3 i + k of the 24 entries. So the index is in lane (3 i + k) mod 8
+    // of one of the three registers.
     const auto pick = [&](__m256i x, __m256i y, __m256i z) OVAL4D_AVX2 {
         return _mm256_blend_epi32(_mm256_blend_epi32(x, y, 0b10010010), z, 0b00100100);
     };
@@ -202,7 +202,7 @@ OVAL4D_AVX2 TriangleMasks setUpTriangles(const SurfaceCanvas& canvas, const LitV
     const auto putEdge = [&](const __m256& x0, const __m256& y0, const __m256& x1, const __m256& y1, const __m256& base,
                              FloatLanes& at, FloatLanes& step) OVAL4D_AVX2 {
         const __m256 slope = _mm256_div_ps(_mm256_sub_ps(x1, x0), _mm256_sub_ps(y1, y0));
-        // The distance of the base row above the lower end, 0 … 1.
+        // The height of the center of the base row above the lower end of the edge, 0 … 1.
         const __m256 above = _mm256_sub_ps(_mm256_add_ps(base, half), y0);
         put(at, _mm256_fmadd_ps(slope, above, _mm256_sub_ps(x0, half)));
         put(step, slope);
@@ -225,14 +225,14 @@ OVAL4D_AVX2 TriangleMasks setUpTriangles(const SurfaceCanvas& canvas, const LitV
     return masks;
 }
 
-// Converts a color with numbers from 0 to 255, the upper half of a LitVertex, to an RGBA pixel.
+// Converts the upper half of a LitVertex, a color with numbers from 0 to 255, to an RGBA pixel.
 OVAL4D_AVX2 inline std::uint32_t packPixel(__m128 color) {
     const __m128i numbers = _mm_cvtps_epi32(color), words = _mm_packus_epi32(numbers, numbers);
     return static_cast<std::uint32_t>(_mm_cvtsi128_si32(_mm_packus_epi16(words, words)));
 }
 
-// Draws triangle i of eight triangles. A register holds all quantities of one pixel, because most rows of most
-// triangles have fewer pixels than a register has lanes.
+// Draws triangle i of the eight triangles in `s`. A register holds the eight quantities of one pixel (see LitVertex),
+// not eight pixels, because most rows of most triangles have fewer than eight pixels.
 template <Blending blending>
 OVAL4D_AVX2 inline void fill(const SurfaceCanvas& canvas, const TriangleSetup& s, std::size_t i,
                              const LitVertex& pointA, const LitVertex& pointB, const LitVertex& pointC) {

@@ -43,8 +43,8 @@ class SurfaceRasterizer {
     /// different rows at the same time.
     void draw(const SurfaceCanvas& canvas, std::span<const std::uint32_t> indices, Blending blending) const;
 
-    /// Returns an estimate of the mean height of the triangles in the picture, as a fraction of the picture height from
-    /// the lower edge. Uses only the first corner of every 32nd triangle. Returns 0.5 if no such corner is between the
+    /// Returns an estimate of the mean vertical position of the triangles: 0 is the lower edge of the picture, and 1
+    /// the upper edge. Uses only the first corner of every 32nd triangle. Returns 0.5 if no such corner is between the
     /// lower and the upper edge.
     double estimateMeanScreenY(std::span<const std::uint32_t> indices) const;
 

@@ -59,9 +59,9 @@ Result<std::monostate> ClosedSurfaceSlicer::slice(double w, const IsosurfaceOpti
     return std::monostate{};
 }
 
-// Returns `w` or, if the hyperplane at `w` contains a facet of the domain, a w just inside the domain. A hyperplane
+// Returns `w` or, if the hyperplane at `w` contains a facet of the domain, a value just inside the domain. A hyperplane
 // through the lower facet would have no lattice points below it, because points in the hyperplane count as above it. A
-// hyperplane through the upper facet might have no lattice points above it, because w is rounded.
+// hyperplane through the upper facet might have no lattice points in or above it, because w is rounded.
 double ClosedSurfaceSlicer::movedIntoDomain(double w) const {
     constexpr double kNear = 1e-9, kParallel = 1e-12;  // tolerances, relative to the extent of the domain along w
     double least = 0, greatest = 0;
@@ -80,8 +80,8 @@ double ClosedSurfaceSlicer::movedIntoDomain(double w) const {
     return std::abs(w - greatest) <= nearby ? greatest - nearby : w;
 }
 
-// Cuts the lattice cells of a range, unless the surface cannot meet the range. Divides the range in two again and
-// again, until each part is at most as large as a brick.
+// Cuts the lattice cells of `range`, unless the surface cannot meet the range. Divides the range in two again and
+// again, until each part has at most kBrick cells along each axis.
 void ClosedSurfaceSlicer::cutRange(const CellRange& range) {
     if (status_ != RunStatus::working || !meetsHyperplane(range)) return;
     constexpr std::size_t kVisitsPerQuestion = 16;
@@ -108,8 +108,9 @@ void ClosedSurfaceSlicer::cutRange(const CellRange& range) {
 
 // Returns whether the range has at least one lattice point below the hyperplane, and at least one in or above it. The
 // height of a lattice point above the hyperplane is the sum of four terms, one for each axis. So the least height is
-// the sum of the four least terms in the range, and the greatest height is the sum of the four greatest terms. All
-// these sums add their terms in the same order. Then each rounded sum, too, is monotone in each term.
+// the sum of the four least terms in the range, and the greatest height is the sum of the four greatest terms. All sums
+// add their terms in the same order. So they bound all heights in the range even after rounding, because a rounded sum
+// is monotone in each term.
 bool ClosedSurfaceSlicer::meetsHyperplane(const CellRange& range) const {
     std::array<double, 4> low{}, high{};
     for (std::size_t axis = 0; axis < 4; ++axis) {
@@ -187,8 +188,8 @@ void ClosedSurfaceSlicer::cutCell(glm::ivec4 cell, const std::array<double, 16>&
         }
         // `upper` and `lower` mark the facets of the pentatope on the boundary of the domain: bit i stands for the
         // facet opposite to corner i. Only two facets can lie on the boundary: the facet opposite to corner 0, at the
-        // upper end of an axis, and the facet opposite to corner 4, at the lower end of an axis. The other facets are
-        // inside the cell.
+        // upper end of the cell along one axis, and the facet opposite to corner 4, at its lower end along another
+        // axis. The other facets cross the interior of the cell.
         const unsigned upper = cell[shape.axisToNextCorner(0)] == last[shape.axisToNextCorner(0)] ? 1U : 0U;
         const unsigned lower = cell[shape.axisToNextCorner(3)] == 0 ? 1U << 4U : 0U;
         const unsigned within = bitmaskWhere(cut.values, [&](double value) { return value < level_; });
@@ -217,8 +218,8 @@ void ClosedSurfaceSlicer::findCrossings(CutPentatope& cut, unsigned above) const
     }
 }
 
-// Adds the level set and the caps in a pentatope. Bit i of `above` is set if corner i lies above the hyperplane. Bit i
-// of `boundaryFacets` is set if the facet opposite to corner i lies on the boundary of the domain.
+// Adds the level set and the caps in a pentatope. Bit i of `above` is set if corner i lies in or above the hyperplane.
+// Bit i of `boundaryFacets` is set if the facet opposite to corner i lies on the boundary of the domain.
 void ClosedSurfaceSlicer::cutPentatope(const CutPentatope& cut, unsigned above, unsigned boundaryFacets) {
     const std::size_t first = out_->triangles.size();
     for (const SectionTetrahedron& tetrahedron : pentatopeSection(above, cut.positive)) {
@@ -235,9 +236,10 @@ void ClosedSurfaceSlicer::cutPentatope(const CutPentatope& cut, unsigned above, 
     if (options_.pointData && first < out_->triangles.size()) addGradients(cut, first);
 }
 
-// Adds the cap that closes the surface at a pentatope (4-simplex) that is a hole because only its corner `hole` has no
-// value. The cap lies in the facet opposite to this corner. It is added if the pentatope on the other side of the facet
-// has values at all of its corners.
+// Adds a cap in one facet of a pentatope (4-simplex) of which only corner `hole` has no value: the facet opposite to
+// this corner. The pentatope is a hole. The cap closes the body in the neighboring pentatope that shares the facet.
+// Adds nothing if that pentatope is outside the domain or also has a corner without a value. Bit i of `above` is set if
+// corner i lies in or above the hyperplane.
 void ClosedSurfaceSlicer::addCapAtNanCorner(const CutPentatope& cut, unsigned above, std::size_t hole) {
     const glm::ivec4 other = cut.cell + cut.shape->cornerAcrossFacet(hole);
     if (glm::any(glm::lessThan(other, glm::ivec4(0))) || glm::any(glm::greaterThanEqual(other, lattice_.pointCounts())))
@@ -250,9 +252,9 @@ void ClosedSurfaceSlicer::addCapAtNanCorner(const CutPentatope& cut, unsigned ab
     }
 }
 
-// Adds the level set in a tetrahedron. If one or three of the four corners are inside the body, the level set is a
-// triangle. If two corners are inside, it is a quadrilateral. If all corners or none are inside, the level set is
-// empty.
+// Adds the level set in a tetrahedron. Bit i of `inside` is set if corner i of the tetrahedron is inside the body. If
+// one or three of the four corners are inside the body, the level set is a triangle. If two corners are inside, it is a
+// quadrilateral. If all corners or none are inside, the level set is empty.
 void ClosedSurfaceSlicer::addLevelSet(const CutPentatope& cut, const SectionTetrahedron& tetrahedron, unsigned inside) {
     const auto& edges = tetrahedron.edges;
     const auto between = [&](std::uint8_t a, std::uint8_t b) { return findOrAddPointBetween(cut, edges[a], edges[b]); };
@@ -273,13 +275,13 @@ void ClosedSurfaceSlicer::addLevelSet(const CutPentatope& cut, const SectionTetr
     }
 }
 
-// Adds the gradient of the interpolated function in a pentatope, where it is constant, to the sums of gradients at the
-// points of the triangles. Each triangle in the pentatope adds the gradient at its three corners. The weight is the
-// area of the triangle, but at least kLeastWeight. So the sum is not 0 even at a point whose triangles all have the
-// area 0. The triangles in the pentatope are those with the index `first` and greater ones.
+// Adds the gradient of the interpolated function, which is constant in a pentatope, to out_->gradients. The triangles
+// of the level set in this pentatope are those with the indices `first`, first + 1, …. Each of them adds the gradient
+// at its three corners, multiplied by its area or, if the area is less than kLeastWeight, by kLeastWeight. So the sum
+// is not 0 even at a point whose triangles all have the area 0.
 void ClosedSurfaceSlicer::addGradients(const CutPentatope& cut, std::size_t first) {
     constexpr double kLeastWeight = 1e-100;
-    std::array<double, 4> rises{};  // per axis of the lattice: the difference of the values per cell
+    std::array<double, 4> rises{};  // per axis of the lattice: how much the value rises per cell
     for (std::size_t i = 0; i < 4; ++i) {
         rises[static_cast<std::size_t>(cut.shape->axisToNextCorner(i))] = sign_ * (cut.values[i + 1] - cut.values[i]);
     }
@@ -294,8 +296,8 @@ void ClosedSurfaceSlicer::addGradients(const CutPentatope& cut, std::size_t firs
     }
 }
 
-// Adds a cap: the part of a tetrahedron's face that is inside the body. If `reversed` is true, the cap has the opposite
-// orientation of the face.
+// Adds a cap: the part of a tetrahedron's face that is inside the body. The corners of the face are those of
+// kTetrahedronFaces[face]. If `reversed` is true, the cap has the opposite orientation of the face.
 void ClosedSurfaceSlicer::addCap(const CutPentatope& cut, const SectionTetrahedron& tetrahedron, std::size_t face,
                                  bool reversed) {
     std::array<std::uint8_t, 3> corners = kTetrahedronFaces[face];
@@ -325,9 +327,9 @@ std::uint32_t ClosedSurfaceSlicer::findOrAddPointOn(const CutPentatope& cut, con
     return number;
 }
 
-// Returns the index of the point of the level set between two points: those where the hyperplane crosses the edges
-// `inner` and `outer`. The first must be inside the body, and the second outside. Adds the point of the level set if it
-// is new.
+// Returns the index of the surface point where the level set crosses the line segment between two points of the
+// hyperplane: its crossing with the edge `inner`, which must be inside the body, and its crossing with the edge
+// `outer`, which must be outside. Adds the surface point if it is new.
 std::uint32_t ClosedSurfaceSlicer::findOrAddPointBetween(const CutPentatope& cut, const PentatopeEdge& inner,
                                                          const PentatopeEdge& outer) {
     const unsigned corners = 1U << inner[0] | 1U << inner[1] | 1U << outer[0] | 1U << outer[1];
@@ -350,9 +352,9 @@ glm::dvec3 ClosedSurfaceSlicer::crossingPosition(const CutPentatope& cut, const 
     return glm::mix(corner(edge[0]), corner(edge[1]), cut.crossings[edge[0]][edge[1]].t);
 }
 
-// Returns a key that identifies a lattice simplex. Its corners are the corners i of the pentatope for which bit i of
-// `corners` is set. The key contains the lattice index of the first corner and, for each other corner, the axes along
-// which this corner is above the first.
+// Returns a key that identifies a simplex of the lattice: the one whose corners are the corners i of the pentatope for
+// which bit i of `corners` is set. The key contains the lattice index of the simplex's first corner. For each other
+// corner, it contains the axes along which this corner lies above the first.
 std::uint64_t ClosedSurfaceSlicer::simplexKeyOf(const CutPentatope& cut, unsigned corners) const {
     const auto& chain = cut.shape->corners;
     const unsigned first = chain[static_cast<std::size_t>(std::countr_zero(corners))];
@@ -360,7 +362,7 @@ std::uint64_t ClosedSurfaceSlicer::simplexKeyOf(const CutPentatope& cut, unsigne
         lattice_.index(cut.cell + glm::ivec4(first & 1U, first >> 1U & 1U, first >> 2U & 1U, first >> 3U));
     for (unsigned rest = corners & (corners - 1); rest != 0; rest &= rest - 1)
         key = key << 4U | (chain[static_cast<std::size_t>(std::countr_zero(rest))] ^ first);
-    // A simplex has two to four corners. This shift makes the keys of simplices with different numbers of corners
+    // A simplex has two to four corners. The shift makes the keys of simplices with different numbers of corners
     // differ.
     return key << (4 * static_cast<unsigned>(4 - std::popcount(corners)));
 }

@@ -1,6 +1,6 @@
 #pragma once
-// Slices a scalar field into closed surfaces, after it has replaced the field by the piecewise linear interpolation of
-// the field's values on a lattice.
+// Finds the closed surfaces that bound a region of a scalar field in its slices. The field is sampled on a lattice, and
+// interpolated linearly between the samples.
 
 #include <array>
 #include <cstddef>
@@ -23,25 +23,27 @@
 
 namespace oval4d::slicing {
 
-/// Slices a field, interpolated on a lattice, by one hyperplane at a time. The interpolated function is linear in each
-/// pentatope (4-simplex) of the lattice (see kuhn_sections.hpp). The section of a pentatope by the hyperplane is
-/// divided into tetrahedra. The body is the region where the function is below the level, or above it (see
-/// fields::BodySide). In a tetrahedron, the body is bounded by at most two triangles of the level set and by parts of
-/// the faces of the tetrahedron. The parts of faces that lie on the boundary of the domain become caps.
+/// Slices a field by one hyperplane at a time. The field is interpolated between its samples on a lattice. The
+/// interpolated function is linear in each pentatope (4-simplex) of the lattice (see kuhn_sections.hpp). The section of
+/// a pentatope by the hyperplane is divided into tetrahedra. The body is the region where the function is below the
+/// level, or above it (see fields::BodySide). In a tetrahedron, the body is bounded by at most two triangles of the
+/// level set and by parts of the faces of the tetrahedron. The parts of faces that lie on the boundary of the domain
+/// become caps.
 ///
-/// The surface is closed in spite of rounding errors, for two reasons. First, each point of the surface is the
-/// intersection of a lattice simplex with the hyperplane and the level set, and is identified by this simplex. Second,
-/// every decision is made for a lattice point (whether the point lies above the hyperplane) or for a lattice edge
-/// (whether the point where the edge crosses the hyperplane is inside the body). So all pentatopes with this lattice
-/// point or edge agree. Lattice points in the hyperplane count as above it. Points whose value equals the level count
-/// as outside. If all samples have values, the surface is a 2-manifold, because it separates the inside points of a
-/// triangulated 3-manifold from the others. Triangles may have zero area.
+/// The surface is closed in spite of rounding errors, for two reasons. First, each point of the surface is identified
+/// by the simplex of the lattice in which it lies. The simplex is an edge that the hyperplane crosses, or a triangle or
+/// tetrahedron in which the hyperplane meets the level set in one point. Second, every decision is made for a lattice
+/// point (whether the point lies above the hyperplane) or for a lattice edge (whether the point where the edge crosses
+/// the hyperplane is inside the body). So all pentatopes that share a lattice point or edge decide the same. Lattice
+/// points in the hyperplane count as above it. Points whose value equals the level count as outside. If all samples
+/// have values, the surface is a 2-manifold, because it separates the inside vertices of a triangulated 3-manifold from
+/// the other vertices. Triangles may have zero area.
 ///
-/// Samples that are NaN or infinite have no value (see FieldLattice::sample()). Pentatopes with such a corner do not
-/// belong to the body. They form holes, and the body has caps at their boundaries. Parts of the body that touch along
-/// an edge of a hole share this edge.
+/// A sample without a value is NaN or, in an array, infinite (see FieldLattice::sample()). Pentatopes that have a
+/// corner without a value do not belong to the body. They form holes, and the body has caps at their boundaries. Parts
+/// of the body that touch only along an edge of a hole share this edge, so the surface is not a manifold there.
 ///
-/// Reuses its memory. Only one thread at a time may use a slicer.
+/// A slicer keeps its memory for the next slice. Only one thread at a time may use it.
 class ClosedSurfaceSlicer {
   public:
     /// The default number of lattice cells along the longest side of the domain of a formula.
@@ -53,8 +55,8 @@ class ClosedSurfaceSlicer {
         fields::BodySide inside = fields::BodySide::below;
         std::size_t maxTriangles = 5'000'000;  ///< the maximum number of triangles, including those of the caps
         bool pointData = false;  ///< whether ClosedSurface::values and ClosedSurface::gradients are needed
-        /// A function that slice() calls often, on the calling thread. It may read the triangles found so far in `out`.
-        /// If it returns true or throws, slice() stops early. May be null.
+        /// A function that slice() calls often, on the calling thread. The function may read the triangles found so far
+        /// in the argument `out` of slice(). If it returns true or throws, slice() stops early. May be null.
         std::function<bool()> mustStop = nullptr;
     };
 
@@ -64,18 +66,18 @@ class ClosedSurfaceSlicer {
         : lattice_(field, orientation, cells) {}
 
     /// Cuts the rotated field by the hyperplane at `w`, and writes the boundary of the body to `out`. If the hyperplane
-    /// contains a facet of the domain, the slice is the limit of the slices inside the domain. Overwrites `out`, which
-    /// is incomplete after an error. Error: `too_large` if there are more than IsosurfaceOptions::maxTriangles
-    /// triangles, or if `mustStop` returns true. Throws what `mustStop` throws.
+    /// contains a facet of the domain, cuts the field just inside the domain instead. Overwrites `out`, which is
+    /// incomplete after an error. Error: `too_large` if there are more than IsosurfaceOptions::maxTriangles triangles,
+    /// or if `mustStop` returns true. Throws what `mustStop` throws.
     Result<std::monostate> slice(double w, const IsosurfaceOptions& options, ClosedSurface& out);
 
     /// Returns the lattice on which the field is sampled.
     const FieldLattice& lattice() const { return lattice_; }
 
   private:
-    // The number of cells along each side of a brick (a block of the lattice that is sampled at once).
+    // The greatest number of cells along each side of a brick, a block of the lattice that is sampled at once.
     static constexpr int kBrick = 4;
-    static constexpr std::size_t kBrickPoints = 625;  // the number of lattice points of a brick: (kBrick + 1)⁴
+    static constexpr std::size_t kBrickPoints = 625;  // the lattice points of the largest brick: (kBrick + 1)⁴
 
     enum class RunStatus : std::uint8_t { working, too_large, stopped };
     using Triangle = std::array<std::uint32_t, 3>;
@@ -95,10 +97,10 @@ class ClosedSurfaceSlicer {
         const Pentatope* shape;
         // The lattice cell of which the pentatope is a part.
         glm::ivec4 cell;
-        std::array<double, 5> heights, values;  // per corner: its height above the hyperplane, and its value
+        std::array<double, 5> heights, values;  // per corner: its height above the hyperplane; signedValueOrNan() there
         std::array<std::array<PentatopeEdgeCrossing, 5>, 5>
             crossings;  // [i][j], for i < j: the crossing of the edge between corners i and j
-        bool positive;  // the orientation of the pentatope: the argument `positive` of pentatopeSection()
+        bool positive;  // the argument `positive` for pentatopeSection(): the orientation of the pentatope
     };
 
     double movedIntoDomain(double w) const;
@@ -125,8 +127,8 @@ class ClosedSurfaceSlicer {
     // negated, so that the body always lies below the level.
     IsosurfaceOptions options_;
     double level_ = 0, sign_ = 1;
-    // heights_[axis][index] is the term that the index of a lattice point along this axis adds to the height of the
-    // point above the hyperplane.
+    // The height of the lattice point (i, j, k, l) above the hyperplane is heights_[0][i] + heights_[1][j] +
+    // heights_[2][k] + heights_[3][l].
     std::array<std::vector<double>, 4> heights_;
     RunStatus status_ = RunStatus::working;
     std::size_t visits_ = 0;

@@ -40,7 +40,7 @@ FieldLattice::FieldLattice(const fields::Field& field, const geometry::Rotation&
     : field_(field) {
     const glm::dmat4 toSlice = orientation.matrix() * glm::inverse(field.toFunction);
     const glm::dvec4 size = field.box.max - field.box.min;
-    std::array<double, 4> lengths{};  // per axis: the length of the domain's side
+    std::array<double, 4> lengths{};  // per axis: the length of the domain's side, in the units of the object
     for (std::size_t axis = 0; axis < 4; ++axis) {
         const auto a = static_cast<int>(axis);
         lengths[axis] = size[a] * glm::length(toSlice[a]);
@@ -71,7 +71,7 @@ FieldLattice::FieldLattice(const fields::Field& field, const geometry::Rotation&
 }
 
 fields::ValueBounds FieldLattice::valueBounds(glm::ivec4 first, glm::ivec4 last) const {
-    constexpr double kMargin = 1e-3;  // in lattice cells; the margin allows for rounding of the positions of samples
+    constexpr double kMargin = 1e-3;  // in lattice cells; allows for rounding of the positions of samples
     fields::Box region;
     for (std::size_t axis = 0; axis < 4; ++axis) {
         const auto a = static_cast<int>(axis);

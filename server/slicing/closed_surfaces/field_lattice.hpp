@@ -1,5 +1,6 @@
 #pragma once
-// The lattice on which a ClosedSurfaceSlicer (extracts closed surfaces from slices of a field) samples the field.
+// The lattice on which ClosedSurfaceSlicer, which extracts closed surfaces from the slices of a field, samples the
+// field.
 
 #include <array>
 #include <cstddef>
@@ -39,14 +40,15 @@ class FieldLattice {
         return (positionTerm(0, point.x) + positionTerm(1, point.y)) +
                (positionTerm(2, point.z) + positionTerm(3, point.w));
     }
-    /// Returns the term that the index of a lattice point along one axis adds to the coordinates of the point.
+    /// Returns the term that the index of a lattice point along `axis` adds to the coordinates of the point. The term
+    /// of axis 0 also contains the center of the domain.
     glm::dvec4 positionTerm(std::size_t axis, int index) const {
         const double fraction = static_cast<double>(index) / (pointCounts_[static_cast<int>(axis)] - 1);
         const glm::dvec4 term = (fraction - 0.5) * sides_[axis];
         return axis == 0 ? term + shift_ : term;
     }
-    /// Returns the gradient of a linear function, in the coordinates of the rotated object. `rises` has, for each axis
-    /// of the lattice, the difference of the function's values between neighboring points along this axis.
+    /// Returns the gradient of a linear function, in the coordinates of the rotated object. Entry a of `rises` says how
+    /// much the function rises from one lattice point to the next along axis a.
     glm::dvec4 gradientOf(const std::array<double, 4>& rises) const {
         return fromRises_ * glm::dvec4(rises[0], rises[1], rises[2], rises[3]);
     }
@@ -58,8 +60,8 @@ class FieldLattice {
     fields::ValueBounds valueBounds(glm::ivec4 first, glm::ivec4 last) const;
     /// Writes to `values` the samples at the lattice points in the box from `first` to `last`, both included; x varies
     /// fastest. `values` must have room for all of them. A formula may be infinite at a pole, such as 1/(x²+y²+z²+w²)
-    /// at the origin. There, the sample is the greatest float, or the least one, so that it is above or below all
-    /// levels. In an array, an infinite sample stands for a missing value, and remains infinite.
+    /// at the origin. There, the sample is the finite float of the greatest magnitude with the same sign, so that it is
+    /// above or below all levels. In an array, an infinite sample stands for a missing value, and remains infinite.
     void sample(glm::ivec4 first, glm::ivec4 last, std::span<float> values) const;
     /// Returns the sample at a lattice point.
     float sample(glm::ivec4 point) const;
@@ -68,8 +70,9 @@ class FieldLattice {
     const fields::Field& field_;
     glm::ivec4 pointCounts_{2};
     std::array<glm::dvec4, 4> sides_{};  // the side vectors of the domain, in the coordinates of the rotated object
-    glm::dvec4 shift_{0};                // the center of the domain, in the same coordinates as sides_
-    // [axis][index along the axis]: this coordinate of the lattice point, as the function takes it
+    glm::dvec4 shift_{0};                // the center of the domain, in the coordinates of the rotated object
+    // coordinates_[axis][i]: the coordinate along `axis`, as the function takes it, of the lattice points with the
+    // index i
     std::array<std::vector<double>, 4> coordinates_;
     glm::dmat4 fromRises_{1};  // maps differences of values along the lattice axes to a gradient (see gradientOf())
     bool positive_ = true;

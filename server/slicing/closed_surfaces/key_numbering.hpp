@@ -1,6 +1,6 @@
 #pragma once
-// A hash table that gives keys consecutive numbers, for example keys of the lattice simplices in which the points of a
-// surface lie.
+// A hash table that gives keys consecutive numbers. The keys identify, for example, the lattice simplices in which the
+// points of a surface lie.
 
 #include <cstddef>
 #include <cstdint>

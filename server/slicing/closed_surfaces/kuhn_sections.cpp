@@ -22,8 +22,8 @@ std::array<Pentatope, 24> makePentatopes() {
         for (std::size_t i = 0; i < 4; ++i) {
             corner |= 1U << axes[i];
             pentatope.corners[i + 1] = static_cast<std::uint8_t>(corner);
-            // The pentatope is positively oriented if the permutation of the axes is even: if the number of its
-            // inversions is even.
+            // The pentatope is positively oriented if the permutation of the axes is even, that is, if the number of
+            // its inversions is even.
             for (std::size_t j = 0; j < i; ++j) pentatope.positive ^= axes[j] > axes[i];
         }
         std::ranges::next_permutation(axes);
@@ -40,9 +40,9 @@ glm::dvec4 referenceCorner(std::size_t i) {
 }
 
 // Returns whether the signed volume of `tetrahedron`, a part of the section of the reference pentatope by a hyperplane,
-// is positive. Its sign is that of det(b − a, c − a, d − a, u), where a, b, c and d are the corners of the tetrahedron,
-// and u points to the upper side of the hyperplane. Bit i of `above` says whether corner i of the pentatope is on the
-// upper side. The middles of the cut edges serve as the corners a, b, c and d.
+// is positive. The sign of the volume is that of det(b − a, c − a, d − a, u), where a, b, c and d are the corners of
+// the tetrahedron, and u points to the upper side of the hyperplane. Bit i of `above` says whether corner i of the
+// pentatope is on the upper side. The middles of the cut edges serve as the corners a, b, c and d.
 bool hasPositiveVolume(const SectionTetrahedron& tetrahedron, unsigned above) {
     const auto middle = [&](const PentatopeEdge& edge) {
         return 0.5 * (referenceCorner(edge[0]) + referenceCorner(edge[1]));
@@ -55,9 +55,9 @@ bool hasPositiveVolume(const SectionTetrahedron& tetrahedron, unsigned above) {
                                        up * (referenceCorner(edge[1]) - referenceCorner(edge[0])))) > 0;
 }
 
-// Finds, for each face of a tetrahedron, the facet of the pentatope in which the face lies. The three corners of a face
-// lie on edges of the pentatope. If these edges have only four of the five corners of the pentatope, the face lies in
-// the facet opposite to the missing corner.
+// Sets tetrahedron.facets: for each face of the tetrahedron, the facet of the pentatope in which the face lies. The
+// three corners of a face lie on edges of the pentatope. If these edges have only four of the five corners of the
+// pentatope, the face lies in the facet opposite to the missing corner.
 void findFacets(SectionTetrahedron& tetrahedron) {
     for (std::size_t k = 0; k < 4; ++k) {
         unsigned corners = 0;

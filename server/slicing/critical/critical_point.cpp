@@ -11,23 +11,28 @@ namespace oval4d::slicing {
 
 namespace {
 
-// The offset of the points of a difference quotient, in units of TransformedFunction::radius.
+// The distance from a point to the neighbors whose gradients give its second derivatives, in units of
+// TransformedFunction::radius.
 constexpr double kDifference = 2e-3;
-constexpr double kDamping = 1e-6;  // the damping, relative to the mean diagonal entry of J Jᵀ, where J is the Jacobian
+// The damping of the least squares, divided by the mean diagonal entry of J Jᵀ, where J is the Jacobian.
+constexpr double kDamping = 1e-6;
 constexpr int kIterations = 30;
 // Upper bounds of three values at a point that counts as critical. kSmallStep bounds the length of the next step.
-// kTangent bounds the part of the gradient in the hyperplane, relative to the gradient. kOnLevel bounds the distance
-// from the level set. The unit of length is TransformedFunction::radius.
+// kTangent bounds the length of the gradient's component in the hyperplane, divided by the length of the gradient ∇f.
+// kOnLevel bounds |f − level| / |∇f|, an estimate of the distance from the level set. The unit of length is
+// TransformedFunction::radius.
 constexpr double kSmallStep = 1e-5, kTangent = 1e-3, kOnLevel = 1e-5;
 
-/// The value and the derivatives of the function at a point. The unit of length is TransformedFunction::radius.
+/// The value of the function f at a point, and its derivatives there. The unit of length is
+/// TransformedFunction::radius.
 struct TaylorExpansion {
     double value = 0;
     glm::dvec4 gradient{0};
     std::array<glm::dvec4, 3> second{};  // the derivatives of ∂f/∂x, ∂f/∂y and ∂f/∂z along x, y, z and w
 };
 
-// Computes the value at `point`, its gradient, and second derivatives by difference quotients.
+// Computes the value and the gradient of the function at `point`, and its second derivatives as difference quotients of
+// gradients. `point` is in units of TransformedFunction::radius.
 TaylorExpansion taylorExpansionAt(const TransformedFunction& placed, const glm::dvec4& point) {
     // Point 0 of the batch is `point` itself. Points 1 … 8 are the two neighbors of `point` along each axis. The
     // remaining points repeat point 0 to fill the batch.
@@ -67,7 +72,7 @@ std::optional<glm::dvec4> findCriticalPoint(const TransformedFunction& placed, d
         const TaylorExpansion f = taylorExpansionAt(placed, point);
         if (scale == 0) scale = glm::length(f.gradient);
         const glm::dvec4 residual = glm::dvec4(f.gradient.x, f.gradient.y, f.gradient.z, f.value - level) / scale;
-        // The gradients of the functions to be made 0 are the rows of the Jacobian. The GLM constructor takes columns,
+        // The rows of the Jacobian are the gradients of the entries of `residual`. The GLM constructor takes columns,
         // so it makes the transpose of the Jacobian.
         const glm::dmat4 transposed =
             glm::dmat4(f.second[0], f.second[1], f.second[2], f.gradient) * glm::dmat4(1 / scale);

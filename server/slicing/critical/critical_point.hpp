@@ -21,8 +21,8 @@ struct TransformedFunction {
 
 /// Finds a point near `start` at which a level set of f is tangent to a hyperplane w = const: a point where f = `level`
 /// and ∂f/∂x = ∂f/∂y = ∂f/∂z = 0. Uses Newton's method with damped least squares, which converges even if such points
-/// are not isolated. All lengths are in the units of the object. Returns an empty optional if the iteration does not
-/// converge within the distance `reach` of `start`, or if ∂f/∂w is also 0 at the point.
+/// are not isolated. All lengths are in the units of the object. Returns an empty optional if the iteration leaves the
+/// ball of radius `reach` around `start` or does not converge, or if ∂f/∂w is also 0 at the point.
 std::optional<glm::dvec4> findCriticalPoint(const TransformedFunction& placed, double level, const glm::dvec4& start,
                                             double reach);
 

@@ -29,9 +29,10 @@ const Error kCanceled{ErrorCode::canceled,
                       "the search for critical w has ended because its result is no longer needed"};
 
 // How far searchOnFinerLattices() searches beyond both ends of the interval of w in which whole sections show a change,
-// as a fraction of the range of w.
+// as a fraction of the length of the range of w.
 constexpr double kLocalReach = 5e-3;
-// The maximum number of changes of all levels together; a noisy field may have more.
+// The search halves no more intervals of w once it has found about this many changes, of all levels together. A noisy
+// field may have more changes.
 constexpr std::size_t kMaxChanges = 1000;
 
 /// Cuts one field by one hyperplane at a time.
@@ -40,7 +41,8 @@ class SectionCutter {
     SectionCutter(const fields::Field& field, const geometry::Rotation& orientation, const FieldSettings& settings)
         : field_(field), orientation_(orientation), settings_(settings) {}
 
-    /// Returns the surfaces of the section at `w`. The reference is valid until the next call.
+    /// Returns the surfaces of the section at `w`. `topologyOnly` is SurfaceDetail::topologyOnly: whether the points
+    /// need no exact positions, normals or growth. The reference is valid until the next call.
     const SliceSurface& cut(double w, bool topologyOnly = false) {
         const geometry::Hyperplanes plane{0, 1, 1, w};
         slicer_.slice(field_, orientation_, plane, settings_, {}, slice_);
@@ -58,8 +60,8 @@ class SectionCutter {
     /// Returns the side of the lattice cubes of the last section, in the units of the object.
     double cubeSide() const { return cube_; }
 
-    /// Returns whether a part of the section with this volume is too small to count. Such a part may not exist in
-    /// reality: sampling on a lattice may separate the tip of a sharp corner from the rest of the section.
+    /// Returns whether a connected part of the section that has this volume is too small to count. Such a part may not
+    /// exist in reality: sampling on a lattice may separate the tip of a sharp corner from the rest of the section.
     bool isTooSmall(double volume) const { return std::abs(volume) < 8 * cube_ * cube_ * cube_; }
 
     /// Returns, for each level, the topology of its body in the section at `w`. Leaves out the parts of the body that
@@ -87,7 +89,7 @@ class SectionCutter {
     double cube_ = 0;
 };
 
-/// The topologies of two sections, and the interval of w between these sections.
+/// An interval of w, and the topologies of the sections at its two ends.
 struct SearchInterval {
     double from = 0, to = 0;
     TopologyByLevel atFrom, atTo;
@@ -107,12 +109,13 @@ SectionChange topologyChangeBetween(const SectionTopology& before, const Section
     return before.cavities != after.cavities ? SectionChange::cavity : SectionChange::handle;
 }
 
-/// Pairs the parts of the surfaces in two sections at close values of w, to find which parts appear, vanish, merge or
-/// split.
+/// Compares the connected parts of the surfaces in two sections at close values of w, to find whether parts appear,
+/// vanish, merge or split.
 class SurfacePartMatching {
   public:
-    /// Pairs the parts of the surfaces `a` and `b`. A part has a partner in the other section if most of its points are
-    /// close to points of that section: at a distance of at most twice the side of a lattice cube.
+    /// Finds which parts of the surfaces `a` and `b` of the level with the index `level` have a partner in the other
+    /// surface. A part has a partner if most of its points are close to parts of the other surface that are not too
+    /// small: at a distance of at most twice the side of a lattice cube.
     SurfacePartMatching(const SliceSurface& a, const SliceSurface& b, std::size_t level, const SectionCutter& cutter)
         : cutter_(cutter),
           reach_(2 * cutter.cubeSide()),
@@ -122,8 +125,8 @@ class SurfacePartMatching {
         toA_ = findPartners(b, partsB_, a, partsA_);
     }
 
-    /// Returns the change from the first section to the second. `before` and `after` are the topologies of these
-    /// sections, and must differ.
+    /// Returns the change from section `a` to section `b`. `before` and `after` are the topologies of these sections,
+    /// and must differ.
     SectionChange change(const SectionTopology& before, const SectionTopology& after) const {
         if (countMissingPartners(partsB_, toA_) > 0) return SectionChange::appearance;
         if (countMissingPartners(partsA_, toB_) > 0) return SectionChange::disappearance;
@@ -131,10 +134,10 @@ class SurfacePartMatching {
     }
 
   private:
-    using PartnerFlags = std::vector<bool>;  // per part: whether it has a partner in the other section
+    using PartnerFlags = std::vector<bool>;  // per part: whether it has a partner in the other surface
 
-    // Returns the number of components in `parts` that have no partner and are not too small (see
-    // SectionCutter::isTooSmall()).
+    // Returns the number of parts that have a positive volume (see SurfaceMeasurements::components), have no partner,
+    // and are not too small.
     std::size_t countMissingPartners(const SurfaceComponents& parts, const PartnerFlags& partners) const {
         std::size_t lonely = 0;
         for (std::size_t i = 0; i < partners.size(); ++i) {
@@ -144,8 +147,8 @@ class SurfacePartMatching {
         return lonely;
     }
 
-    // Returns a number that identifies the grid cell `cell`. The grid, into which points are sorted, has cells with
-    // sides of length reach_.
+    // Returns a number that identifies a cell of the grid into which findPartners() sorts points. The sides of the
+    // cells have the length reach_.
     std::uint64_t gridCellKey(glm::ivec3 cell) const {
         constexpr int kBias = 1 << 20;
         const glm::u64vec3 c(cell + kBias);
@@ -232,8 +235,8 @@ class CriticalSearch {
     double width() const { return found_.greatest - found_.least; }
     bool mustEnd() const { return limits_.stop.stop_requested() || Clock::now() > end_; }
 
-    // Finds the intervals of w in which the topology changes. Always halves the widest interval, so that the range of w
-    // is covered evenly even if the search ends early.
+    // Sets intervals_ to the intervals of w in which the topology changes. Always halves the widest interval that is
+    // left, so that the range of w is covered evenly even if the search ends early.
     void findChangeIntervals() {
         const double gap = width() / kCriticalSections;
         // Leaves out the ends of the range of w. There, the domain may be a wedge that is thinner than a lattice cube.
@@ -258,8 +261,8 @@ class CriticalSearch {
         std::ranges::sort(intervals_, {}, &SearchInterval::from);
     }
 
-    // Returns the changes of each level. Combines changes that are close to each other in w, because the lattice shows
-    // several changes where a surface touches itself along a curve.
+    // Returns the changes of the body of each level. Combines changes of a level that are at most the resolution apart
+    // in w, because the lattice shows several changes where a surface touches itself along a curve.
     std::vector<TopologyChangeInterval> combinedChanges() const {
         std::vector<TopologyChangeInterval> all;
         for (std::size_t level = 0; level < settings_.levels.size(); ++level) {
@@ -278,10 +281,10 @@ class CriticalSearch {
         return all;
     }
 
-    // Finds the critical w and the kind of the change in an interval.
+    // Returns the critical section for a change: its w, and the kind of the change.
     CriticalSection criticalSectionOf(const TopologyChangeInterval& change) {
         if (Clock::now() > end_ + (end_ - begin_) / 2) {
-            // The time limit of the search has passed, so the sections are not compared.
+            // 1.5 times the time limit has passed, so the sections at both ends of the interval are not compared.
             return {(change.from + change.to) / 2,
                     topologyChangeBetween(change.before, change.after),
                     0,
@@ -308,8 +311,8 @@ class CriticalSearch {
 
     // Searches for critical points near those points of `surface`, the section at `w`, at which the level set is most
     // nearly tangent to the hyperplane. Ignores critical points whose w is farther than the resolution from the
-    // interval of the change. `best` is a critical w, if one is known. It is replaced by the w of a critical point that
-    // is nearer to the middle of the interval.
+    // interval of the change. `best` is the best critical w that is known, if any. Replaces `best` by the w of a
+    // critical point if that is nearer to the middle of the interval.
     void searchNearTangentPoints(const TopologyChangeInterval& change, const SliceSurface& surface, double w,
                                  std::optional<double>& best) const {
         constexpr std::size_t kStarts = 24;
@@ -326,10 +329,11 @@ class CriticalSearch {
         }
     }
 
-    // Refines the critical w of a change of kind `kind` on finer lattices around the points where the section is most
-    // nearly tangent to the hyperplane. Parts that merge or vanish are tangent in the section `before`; parts that
-    // split or appear are tangent in the section `after`. Returns an empty optional for a change of handles, because
-    // finer lattices show additional handles where the surface has creases.
+    // Returns the critical w of a change of kind `kind`, refined on finer lattices around points where the level set is
+    // most nearly tangent to the hyperplane. Where parts merge or vanish, such points are in the section `before`;
+    // where parts split or appear, they are in the section `after`. The points of this section are tried first. Returns
+    // an empty optional if no point leads to a result, and for a change of handles, because finer lattices show
+    // additional handles where the surface has creases.
     std::optional<double> searchOnFinerLattices(const TopologyChangeInterval& change, SectionChange kind,
                                                 const SliceSurface& before, const SliceSurface& after) const {
         constexpr std::size_t kStarts = 24;
@@ -354,8 +358,9 @@ class CriticalSearch {
         return std::nullopt;
     }
 
-    // Returns the indices of up to `count` points of the level set: those where |growth| (see SliceSurface::growth) is
-    // greatest. Any two of these points are more than `distance` apart.
+    // Returns the indices of up to `count` points of the level set where it is most nearly tangent to the hyperplane:
+    // those with the greatest |growth| (see SliceSurface::growth). Any two of these points are more than `distance`
+    // apart.
     static std::vector<std::uint32_t> tangentPoints(const SliceSurface& surface, std::size_t level, double distance,
                                                     std::size_t count) {
         std::vector<std::uint32_t> candidates;

@@ -1,5 +1,5 @@
 #pragma once
-// A cache of the critical values of w that findCriticalSections() has found.
+// A cache of results of findCriticalSections(): the critical values of w of objects.
 
 #include <cstddef>
 #include <cstdint>
@@ -16,7 +16,7 @@ namespace oval4d::slicing {
 /// Keeps the most recently used results of findCriticalSections(), up to a limit on their memory. Thread-safe.
 class CriticalSectionsCache {
   public:
-    /// Creates an empty cache. `bytes` is the maximum memory of the results in it.
+    /// Creates an empty cache. `bytes` is the maximum memory of the results in the cache.
     explicit CriticalSectionsCache(std::size_t bytes) : maxBytes_(bytes) {}
 
     /// Returns the result of findCriticalSections() for this object, orientation and settings, or null if the result is
@@ -24,8 +24,8 @@ class CriticalSectionsCache {
     CriticalSectionsPtr find(const Object& object, const geometry::Rotation& orientation,
                              const FieldSettings& settings);
 
-    /// Adds `result`, the result of findCriticalSections() for this object, orientation and settings. Does nothing if
-    /// the memory of `result` exceeds the limit.
+    /// Adds `result`, the result of findCriticalSections() for this object, orientation and settings. Removes the least
+    /// recently used results if all together exceed the limit. Does nothing if `result` alone exceeds it.
     void add(const Object& object, const geometry::Rotation& orientation, const FieldSettings& settings,
              CriticalSectionsPtr result);
 
@@ -35,7 +35,7 @@ class CriticalSectionsCache {
   private:
     // The arguments of findCriticalSections() that determine its result.
     struct SearchArguments {
-        std::uint64_t object;  // the serial number of the object
+        std::uint64_t object;  // the serial number of the object: ObjectInfo::serial
         geometry::Rotation orientation;
         FieldSettings settings;
         bool operator==(const SearchArguments&) const = default;

@@ -15,15 +15,15 @@ namespace {
 constexpr int kWindowSide = LocalTopologyChangeSearch::kSide, kWindowMiddle = kWindowSide / 2;
 constexpr std::size_t kWindowLayer = static_cast<std::size_t>(kWindowSide) * kWindowSide,
                       kWindowPoints = kWindowLayer * kWindowSide;
-constexpr int kMaxSamplings = 600;  // how often one search may sample a window
-// How many of the points that change sides are tried as the middle of the next window.
+constexpr int kMaxSamplings = 600;  // how often one search may sample windows, approximately
+// Of the points that enter or leave the body, at most this many are tried as the middle of the next window.
 constexpr std::size_t kMaxTriedPoints = 8;
 // Points less than this many lattice steps from the boundary of a window are not in its interior.
 constexpr int kWindowMargin = 2;
-constexpr double kFirstPrecision = 0.01;  // the error of w in the first window, as a fraction of SearchStart::tolerance
-// The greatest distance in w of a change in a window, divided by that in the next window.
+constexpr double kFirstPrecision = 0.01;  // the precision of w in the first window, per SearchStart::tolerance
+// The next window searches only this many times less far along w than the window before it.
 constexpr double kReachShrink = 2;
-constexpr int kNeededWindows = 3;  // the number of windows in which a change must be found to count
+constexpr int kNeededWindows = 3;  // the number of successive windows in which a change must be found to count
 
 std::size_t windowPointIndex(int x, int y, int z) {
     return static_cast<std::size_t>(x) +
@@ -85,7 +85,9 @@ std::optional<double> LocalTopologyChangeSearch::findInWindow(const SearchWindow
     return number >= kNeededWindows ? std::optional(event->w) : std::nullopt;
 }
 
-// Finds the change in the window whose w is nearest to `w`, at a distance of at most `reach`.
+// Finds, in one window, the change whose w is nearest to `w`, at a distance of at most `reach`. Returns an empty
+// optional if there is none, or if no lattice point in the interior of the window enters or leaves the body. `number`
+// is 1 for the first, largest window.
 std::optional<LocalTopologyChangeSearch::PartCountEvent> LocalTopologyChangeSearch::changeInWindow(
     const SearchWindow& window, double w, double reach, int number) {
     double from = w, to = w;
@@ -99,8 +101,8 @@ std::optional<LocalTopologyChangeSearch::PartCountEvent> LocalTopologyChangeSear
         if (isSoughtChange(before, after)) break;
         if (distance >= reach) return std::nullopt;
     }
-    // On a finer lattice, more points enter or leave the body (the region inside the level) in an interval of w of the
-    // same length. So the interval must be shorter.
+    // In an interval of w of the same length, more points of a finer lattice enter or leave the body (the region inside
+    // the level). So the interval must be shorter on a finer lattice.
     const double precision = std::max(leastStep_, kFirstPrecision * tolerance_ / std::pow(kZoom, number - 1));
     while (to - from > precision) {
         if (samplings_ > kMaxSamplings || mustEnd_()) return std::nullopt;
@@ -159,8 +161,8 @@ void LocalTopologyChangeSearch::sampleWindow(const SearchWindow& window, double 
     }
 }
 
-// Returns the number of connected parts of the body (the region inside the level) in the window. If change_.ofBody is
-// false, returns that of the rest of the window.
+// Returns the number of connected parts of the body (the region inside the level) in a window or, if change_.ofBody is
+// false, of the rest of the window. `inside` has 1 for each lattice point in the body.
 std::size_t LocalTopologyChangeSearch::countSoughtParts(const InBodyFlags& inside) {
     std::iota(parents_.begin(), parents_.end(), std::uint32_t{0});
     const auto rootOf = [&](std::uint32_t point) {

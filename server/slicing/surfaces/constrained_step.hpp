@@ -15,10 +15,11 @@ namespace oval4d::slicing {
 /// before.
 class MinimumNormStep {
   public:
-    /// Adds a function, by its gradient and its value at the current point. The gradient must be a unit vector.
+    /// Adds a function, by its gradient and its value at the current point. The gradient must be a unit vector; divide
+    /// both by the length of the gradient if it is not.
     void addConstraint(const glm::dvec3& gradient, double value) {
-        // Gram–Schmidt: basis_ is an orthonormal basis of the gradients. targets_ are the components of the step along
-        // the vectors of basis_.
+        // The Gram–Schmidt process: basis_ is an orthonormal basis of the space that the gradients span. targets_ are
+        // the components of the step along the vectors of basis_.
         constexpr double kIndependent = 0.05;
         glm::dvec3 rest = gradient;
         double target = -value;

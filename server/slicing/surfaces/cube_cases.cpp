@@ -8,7 +8,7 @@ namespace oval4d::slicing {
 namespace {
 
 struct CubeFace {
-    // The corners and edges of the face in cyclic order; edge i joins corners i and i + 1.
+    // The corners and edges of the face in cyclic order; edge i joins corners i and (i + 1) mod 4.
     std::array<std::uint8_t, 4> corners, edges;
 };
 

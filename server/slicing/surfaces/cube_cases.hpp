@@ -41,8 +41,8 @@ struct CubeCase {
 /// alternately inside and outside, the two inside corners are separated.
 const CubeCase& cubeCase(std::uint8_t inside);
 
-/// Returns the case of a cube like cubeCase(), but joins the inside corners on the mergingFace, if the cube has one.
-/// The edges of this face then belong to two patches.
+/// Returns the case of a cube like cubeCase(), except that the inside corners on the face CubeCase::mergingFace, if the
+/// cube has such a face, are joined. The edges of this face then belong to two patches.
 const CubeCase& joinedCubeCase(std::uint8_t inside);
 
 }  // namespace oval4d::slicing

@@ -25,8 +25,8 @@ struct PointsInFunctionCoordinates {
         for (int k = 0; k < 4; ++k) coordinates[static_cast<std::size_t>(k)][i] = static_cast<float>(at[k]);
     }
     /// Sets the points with the indices i … i + size.x · size.y · size.z − 1 to a box-shaped part of a lattice; x
-    /// varies fastest. `first` is the lower corner of the box, in the slice's coordinates. `steps` are the vectors to
-    /// the next points along x, y and z, in the function's coordinates.
+    /// varies fastest. `first` is the point with the least x, y and z, in the slice's coordinates. `steps` are the
+    /// vectors from a point to the next one along x, y and z of the slice, in the function's coordinates.
     void setPointsInBox(std::size_t i, const FieldSection& section, const glm::dvec3& first,
                         const std::array<glm::vec4, 3>& steps, const glm::ivec3& size) {
         setPoint(i, section, first);
@@ -43,7 +43,7 @@ struct PointsInFunctionCoordinates {
         }
     }
     /// Sets the points with the indices begin … begin + count − 1 to a row that begins at the point `first` of the
-    /// slice. `step` is the vector to the next point, in the function's coordinates.
+    /// slice. `step` is the vector from each point to the next, in the function's coordinates.
     void setPointsInRow(std::size_t begin, const FieldSection& section, const glm::dvec3& first, const glm::vec4& step,
                         std::size_t count) {
         setPoint(begin, section, first);

@@ -12,7 +12,7 @@
 
 namespace oval4d::slicing {
 
-/// Sets the origin, the axes and the normal of `section` for the hyperplane w = `w` of a rotated field. `toFunction`
+/// Sets `origin`, `axes` and `normal` of `section` for the hyperplane at `w` that cuts a rotated field. `toFunction`
 /// must be Field::toFunction times the inverse of the rotation matrix.
 void placeSection(const fields::Field& field, const glm::dmat4& toFunction, double w, FieldSection& section);
 

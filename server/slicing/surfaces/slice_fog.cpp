@@ -17,7 +17,8 @@ namespace {
 std::uint8_t quantizeToByte(float value, double least, double scale) {
     if (std::isnan(value)) return 0;
     const double above = (value - least) * scale;
-    // If `scale` is infinite, `above` is 0 · ∞ = NaN for the least value. The result is then 1, as it must be.
+    // If `scale` is infinite, `above` is 0 · ∞ = NaN for the value `least`. NaN > 0 is false, so the result is 1, as it
+    // must be.
     return static_cast<std::uint8_t>(above > 0 ? 1 + std::lround(std::min(above, 254.0)) : 1);
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// The fog in one slice of a field: the values of the field on a lattice.
+// The fog in one slice of a field: values of the field on a lattice, which a picture shows as opacity and color.
 
 #include <cstdint>
 #include <vector>
@@ -38,9 +38,10 @@ struct SliceFog {
 glm::ivec3 fogLatticeSize(const glm::dvec3& min, const glm::dvec3& max, double step);
 
 /// Samples a function on a lattice in a section. The coordinates of lattice points are multiples of the step, so that
-/// the lattice stays in place while an object turns. Enlarges `step` if an axis would have more than
+/// the lattice stays in place while an object turns. Enlarges `step` if necessary, so that no axis has more than
 /// SliceFog::kMaxPoints points. The value `least` and all lower values become the byte 1; `greatest`, which must be
-/// greater than `least`, and all higher values become the byte 255. Overwrites `out`.
+/// greater than `least`, and all higher values become the byte 255. Overwrites `out`, which is empty if the section
+/// does not meet the domain.
 void sampleFog(const fields::ScalarFunction& function, const FieldSection& section, double least, double greatest,
                double step, SliceFog& out);
 

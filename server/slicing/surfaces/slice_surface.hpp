@@ -19,13 +19,13 @@ struct SliceSurface {
     static constexpr std::uint8_t kCap = 0x80;
 
     std::vector<glm::vec3> points;  ///< x, y and z of each point, in the units of the object
-    /// Per point: the outward unit normal of the point's level set; without meaning on caps.
+    /// Per point: the outward unit normal of the level set through the point; without meaning at points of caps alone.
     std::vector<glm::vec3> normals;
     /// Per point: the distance by which the level set moves along its outward normal per unit of w. The number is
     /// positive where the body grows with w, negative where it shrinks, and infinite where the level set is tangent to
     /// the hyperplane.
     std::vector<float> growth;
-    std::vector<float> values;  ///< per point: the value of the function
+    std::vector<float> values;  ///< per point: the value of the field's function
     /// Per point: the value of the second function. Empty unless the field has a second function and
     /// SurfaceDetail::secondValues is true.
     std::vector<float> secondValues;
@@ -44,8 +44,7 @@ struct SliceSurface {
         triangles.clear();
         levelAndCap.clear();
     }
-    /// Returns, per point, the value that determines its color: the value of the second function if `secondValues` is
-    /// not empty, else that of the first.
+    /// Returns, per point, the value that determines its color: `secondValues` unless they are empty, else `values`.
     const std::vector<float>& coloringValues() const { return secondValues.empty() ? values : secondValues; }
     /// Returns the index of the level of triangle t.
     std::size_t levelIndex(std::size_t t) const { return levelAndCap[t] & ~kCap; }

@@ -46,9 +46,9 @@ constexpr std::array<std::uint16_t, 256> kCrossedEdges = [] {
     return crossed;
 }();
 
-/// Returns a bit for each wall of the domain beyond which a point of a block of cubes may lie, even after the point was
-/// moved onto other walls. `first` is the position of the block's corner 0, `cubes` the number of cubes along each side
-/// of the block, and `step` the lattice step.
+/// Returns a bit for each wall of the domain beyond which a point of a block of cubes may lie, before or after the
+/// point is moved onto other walls. `first` is the position of the block's corner 0, `cubes` the number of cubes along
+/// each side of the block, and `step` the lattice step.
 std::uint8_t wallsNearBlock(const FieldSection& section, const glm::dvec3& first, double cubes, double step) {
     const double half = 0.5 * cubes * step;
     const glm::dvec3 center = first + half;
@@ -90,15 +90,15 @@ void SurfaceExtractor::extract(const fields::ScalarFunction& function, const Fie
     out.clear();
     if (glm::any(glm::greaterThanEqual(section.min, section.max))) return;
     sign_ = options.inside == fields::BodySide::below ? 1 : -1;
-    // While the surfaces have too many points, the step is multiplied by this factor. The number of points, which is
-    // inversely proportional to the square of the step, then falls to about 40 %.
+    // While the surfaces have too many points, the lattice step is multiplied by kEnlarge. The number of points, which
+    // is inversely proportional to the square of the step, then falls to about 40 %.
     constexpr double kEnlarge = 1.6;
     for (double step = options.step; !tryExtract(step, function, section, options, out); step = kEnlarge * step_)
         out.clear();
 }
 
-// Extracts the surfaces with a lattice step of at least `step`. Returns false if the surfaces have too many points and
-// the step can still be enlarged.
+// Extracts the surfaces of all levels with a lattice step of at least `step`. Returns false if the surfaces have too
+// many points and the step can still be enlarged.
 bool SurfaceExtractor::tryExtract(double step, const fields::ScalarFunction& function, const FieldSection& section,
                                   const ExtractionOptions& options, SliceSurface& out) {
     chooseLattice(step, function, section, options);
@@ -121,14 +121,15 @@ bool SurfaceExtractor::tryExtract(double step, const fields::ScalarFunction& fun
     return true;
 }
 
-// Lays out the lattice and classifies its blocks. Enlarges the step until the estimated time of the extraction is short
-// enough.
+// Lays out the lattice and classifies its blocks. Begins with the step `step`, and enlarges it until the estimated time
+// of the extraction is at most options.maxTime, or until isCoarsest().
 void SurfaceExtractor::chooseLattice(double step, const fields::ScalarFunction& function, const FieldSection& section,
                                      const ExtractionOptions& options) {
     const fields::EvaluationCost cost = function.cost();
     constexpr double kEnlarge = 1.25, kBoundsShare = 0.25;
-    // The surface passes through about one in six cubes of an active block, and the gradient is evaluated twice for
-    // each of its points. kPerPoint and kPerSample are times in nanoseconds.
+    // The surface passes through about one in six cubes of an active block, and each of these cubes gives about one
+    // point. The gradient is evaluated kGradients times for each point. kPerPoint and kPerSample are times in
+    // nanoseconds.
     constexpr double kPointsPerBlock = kBlockPoints / 6.0, kGradients = 2, kPerPoint = 60, kPerSample = 1;
     const double perBlock =
         kBlockPoints * (cost.value + kPerSample) + static_cast<double>(options.levels.size()) * kPointsPerBlock *
@@ -180,8 +181,8 @@ std::uint8_t SurfaceExtractor::wallsTouchingCube(const FieldSection& section, co
     return static_cast<std::uint8_t>(walls);
 }
 
-// Returns, for each wall of the domain, how far a cube extends from its center toward the wall. `half` is half the side
-// of the cube.
+// Returns, for each wall of the domain, how far a cube extends from its center toward the wall, with a small allowance
+// for rounding. `half` is half the side of the cube.
 SurfaceExtractor::ExtentsTowardWalls SurfaceExtractor::extentsTowardWalls(const FieldSection& section,
                                                                           double half) const {
     ExtentsTowardWalls extents{};
@@ -192,9 +193,9 @@ SurfaceExtractor::ExtentsTowardWalls SurfaceExtractor::extentsTowardWalls(const 
     return extents;
 }
 
-// Finds the blocks that may contain a surface, and notes which points of their upper neighbors are needed for them.
-// Looks at groups of 2 × 2 × 2 blocks first. Looks at the single blocks of a group only if the group may contain a
-// surface.
+// Finds the blocks that may contain a surface, and marks them as active. Notes which points of these blocks and of
+// their upper neighbors must be sampled. Looks at groups of 2 × 2 × 2 blocks first. Looks at the single blocks of a
+// group only if the group may contain a surface.
 void SurfaceExtractor::classifyBlocks(const fields::ScalarFunction& function, const FieldSection& section,
                                       const ExtractionOptions& options) {
     blocks_.assign(static_cast<std::size_t>(blockCount_.x) * blockCount_.y * blockCount_.z, LatticeBlock{});
@@ -216,18 +217,19 @@ void SurfaceExtractor::classifyBlocks(const fields::ScalarFunction& function, co
         const glm::dvec4 margin = reach + 1e-6 * (glm::abs(middle) + reach);
         const fields::ValueBounds bounds = function.boundsIn({middle - margin, middle + margin});
         return std::ranges::any_of(options.levels, [&](double level) {
-            // Whether the whole cube is inside the level, in its body.
+            // Whether the whole cube is in the body of the level.
             const bool full = sign_ > 0 ? bounds.max < level : bounds.min > level;
             return bounds.mayCross(level) || (walls != 0 && full);
         });
     };
-    // Computing the bounds of a block saves time if it takes less time than the samples that it may make unnecessary.
+    // The bounds of single blocks are computed only if this takes less than half of the time that the samples of a
+    // block take.
     const fields::EvaluationCost cost = function.cost();
     const bool refines = cost.bounds < 0.5 * kBlockPoints * cost.value;
     const double half = 0.5 * kBlock * step_;
     const ExtentsTowardWalls ofBlock = extentsTowardWalls(section, half);
     const ExtentsTowardWalls ofGroup = extentsTowardWalls(section, 2 * half);
-    const glm::ivec3 last = blockCount_ - 1;  // the layer of blocks that are never active
+    const glm::ivec3 last = blockCount_ - 1;  // blocks with one of these indices are never active
     for (glm::ivec3 g(0); g.z < last.z; g.z += 2) {
         for (g.y = 0; g.y < last.y; g.y += 2) {
             for (g.x = 0; g.x < last.x; g.x += 2) {
@@ -277,7 +279,7 @@ void SurfaceExtractor::sampleBlocks(const fields::ScalarFunction& function, cons
     std::array<BatchedBlock, kCapacity> batched{};
     std::array<float, kCapacity> values{};
     std::array<std::uint8_t, kCapacity> inside{};
-    std::array<bool, kCapacity> inDomain{};  // set only for the points of blocks at walls of the domain
+    std::array<bool, kCapacity> inDomain{};  // valid only for the points of blocks at walls of the domain
     std::size_t batchedCount = 0, size = 0;
     const auto sample = [&] {
         function.evaluate(points.batch(size), std::span(values).first(size));
@@ -318,7 +320,7 @@ void SurfaceExtractor::sampleBlocks(const fields::ScalarFunction& function, cons
     sample();
 }
 
-// Sets `inside`: for each value, a bit for each level whose body contains the points with this value.
+// Sets inside[i] to a bit mask of levels: bit l is set if points with the value values[i] are in the body of level l.
 void SurfaceExtractor::findLevelsContaining(std::span<const float> values, const ExtractionOptions& options,
                                             std::span<std::uint8_t> inside) const {
     std::ranges::fill(inside, std::uint8_t{0});
@@ -367,9 +369,9 @@ void SurfaceExtractor::moveOntoWalls(const FieldSection& section, glm::ivec3 fir
     }
 }
 
-// Returns whether a point is in the domain or just beyond some walls of the domain. In the latter case, moves the point
-// onto these walls; if there is only one such wall, moves the point along an axis of the lattice. `walls` has a bit for
-// each wall to consider, and must include all walls near the point.
+// Returns whether a point is in the domain, or so close beyond walls of the domain that it can be moved onto them. In
+// the latter case, moves the point onto these walls; if it is beyond only one wall, moves the point along an axis of
+// the lattice. `walls` has a bit for each wall to consider, and must include all walls near the point.
 bool SurfaceExtractor::moveIntoDomain(const FieldSection& section, std::uint8_t walls, glm::dvec3& point) const {
     const auto wall = [&](unsigned bits) -> const FieldSection::HalfSpace& {
         return section.walls[static_cast<std::size_t>(std::countr_zero(bits))];
@@ -398,8 +400,8 @@ bool SurfaceExtractor::moveIntoDomain(const FieldSection& section, std::uint8_t 
     if (beyond == 0) return true;
     const glm::dvec3 start = point;
     if (std::has_single_bit(beyond)) moveAlongAxis(wall(beyond), distance(wall(beyond)));
-    // A point beyond several walls of the domain is moved to the place where these walls meet. If the point is then
-    // beyond another wall, the next round includes this wall.
+    // A point beyond several walls of the domain is moved to the nearest place where these walls meet. If the point is
+    // then beyond another wall, the next round includes this wall.
     for (int round = 0; round < 3; ++round) {
         unsigned now = 0;
         for (unsigned rest = walls; rest != 0; rest &= rest - 1)
@@ -425,14 +427,15 @@ std::uint8_t SurfaceExtractor::insideCornerMask(glm::ivec3 cube, std::size_t lev
     return static_cast<std::uint8_t>(corners);
 }
 
-// Finds the cubes through which the surface passes. Returns false if these cubes have more than `maxPoints` points and
-// the step of the lattice can still be enlarged.
+// Sets cubes_ to the cubes through which the surface of level number `level` passes, and appends their points. Returns
+// false if these cubes have more than `maxPoints` points and the step of the lattice can still be enlarged.
 bool SurfaceExtractor::findSurfaceCubes(const FieldSection& section, std::size_t level, std::size_t maxPoints) {
-    // Describes a row of lattice points along x, for the four cubes along the row. Each member has one byte per cube,
-    // and in this byte a bit for each level, as in inside_.
+    // CornerPairs describes a row of lattice points along x, for the four cubes along the row. Each cube has two
+    // corners in the row. Each member of CornerPairs has one byte per cube, and in this byte a bit for each level, as
+    // in inside_.
     constexpr std::size_t kRows = kBlock + 1;
     struct CornerPairs {
-        // Bits: whether at least one (`some`) or both (`all`) of the cube's two corners in this row are inside the body
+        // Bits: whether at least one (`some`) or both (`all`) of the cube's two corners in the row are inside the body
         std::uint32_t some, all;
     };
     const auto rowAt = [&](std::uint32_t at) -> CornerPairs {
@@ -518,7 +521,7 @@ bool SurfaceExtractor::addPatchPoints(const CubeCase& patches, const CrossedCube
 
 // Appends the points of a cube through which a wall of the domain, or the boundary of a hole (where the function has no
 // value), may pass: one point for each patch of the surface (see CubeCase). The point is the mean of the places where
-// the edges of the patch leave the body. Its constraint mask is the union of the masks of these places. Notes in
+// the cube edges of the patch leave the body. Its constraint mask is the union of the masks of these places. Notes in
 // `cube.cap` at which of the edges from corner 0 the surface is a cap.
 void SurfaceExtractor::addPatchPointsAtWalls(const FieldSection& section, const CubeCase& patches, std::uint8_t walls,
                                              glm::ivec3 place, CrossedCube& cube) {
@@ -565,9 +568,9 @@ SurfaceExtractor::LatticeEdgeCrossing SurfaceExtractor::latticeEdgeCrossing(cons
     double first = 0.5;
     std::uint16_t constraint = kAtHole;
     bool found = false;
-    // At the inner end, two kinds of functions are negative or zero: the function minus the level (times sign_), and
-    // the distances from the walls of the domain. The functions that are not negative at the outer end cross zero
-    // between the two ends.
+    // Two kinds of values are negative or zero at the inner end: sign_ · (f − level_), and the signed distances from
+    // the walls of the domain. `from` is such a value at the inner end, and `to` at the outer end. A value that is not
+    // negative at the outer end crosses zero between the two ends.
     const auto consider = [&](double from, double to, std::uint16_t by) {
         if (to < 0) return false;
         const double zero = from / (from - to);
@@ -600,7 +603,7 @@ SurfaceExtractor::LatticeEdgeCrossing SurfaceExtractor::latticeEdgeCrossing(cons
 // batch. So the samples of an array that one step reads are still in the cache when the next step reads them again.
 void SurfaceExtractor::movePointsOntoSurface(const fields::ScalarFunction& function, const FieldSection& section,
                                              SliceSurface& out) {
-    constexpr int kRimSteps = 2;  // the number of Newton steps of points on rims, which may begin far from the surface
+    constexpr int kRimSteps = 2;  // the number of Newton steps of points on rims, whose first positions may be far off
     starts_ = positions_;
     std::size_t next = out.points.size();  // the index in `out` of the next point
     const std::size_t end = next + positions_.size();
@@ -648,10 +651,10 @@ void SurfaceExtractor::movePointsOntoSurface(const fields::ScalarFunction& funct
     }
 }
 
-// Moves each of the points `moving_` by one step of Newton's method toward the level set f = level_ and toward the
-// walls of the domain in its constraint mask (see kWalls). There are at most PointsInFunctionCoordinates::kCapacity
-// such points. With the gradient g of f in the slice, the step of a point that need not lie on a wall is −(f − level_)
-// g / |g|². Overwrites `at`.
+// Moves each of the points with the indices `moving_` by one step of Newton's method: toward the level set f = level_,
+// and toward the walls of the domain in the point's constraint mask (see kWalls). `moving_` must have at most
+// PointsInFunctionCoordinates::kCapacity indices. With the gradient g of f in the slice, the step of a point that need
+// not lie on a wall is −(f − level_) g / |g|². Overwrites `at`.
 void SurfaceExtractor::makeNewtonStep(const fields::ScalarFunction& function, const FieldSection& section,
                                       Evaluation& at) {
     if (moving_.empty()) return;
@@ -695,8 +698,8 @@ void SurfaceExtractor::movePointBy(const glm::dvec3& step, std::uint32_t point) 
     positions_[point] = std::max({moved.x, moved.y, moved.z}) <= step_ ? next : starts_[point];
 }
 
-// Adds two triangles for each lattice edge that the surface crosses. The corners of the triangles are the points of the
-// four cubes around the edge.
+// Appends to `out` two triangles for each lattice edge that the surface crosses. The corners of the triangles are the
+// points of the four cubes around the edge, each on the patch that the edge belongs to.
 void SurfaceExtractor::addTriangles(std::size_t level, SliceSurface& out) {
     caps_.clear();
     const auto firstPoint = static_cast<std::uint32_t>(out.points.size() - positions_.size());
@@ -707,8 +710,9 @@ void SurfaceExtractor::addTriangles(std::size_t level, SliceSurface& out) {
     const auto edgeNumber = [](int axis, int u, int v) {
         return static_cast<std::size_t>(4 * axis) + static_cast<std::size_t>(axis == 1 ? v + 2 * u : u + 2 * v);
     };
-    // The offsets (−u, −v) of the four cubes around a lattice edge, from the cube where the edge begins. The cubes are
-    // in counterclockwise order, as seen from the second end of the edge.
+    // The pairs (u, v) for which (−u, −v) are the offsets of the four cubes around a lattice edge from the cube whose
+    // corner 0 is the first end of the edge. The cubes are in counterclockwise order, as seen from the second end of
+    // the edge.
     static constexpr std::array<std::array<int, 2>, 4> kAround{{{0, 0}, {1, 0}, {1, 1}, {0, 1}}};
     for (const CrossedCube& cube : cubes_) {
         const bool cornerInside = (cube.inside & 1U) != 0;
@@ -724,8 +728,8 @@ void SurfaceExtractor::addTriangles(std::size_t level, SliceSurface& out) {
                 other[kOthers[static_cast<std::size_t>(axis)][0]] -= u;
                 other[kOthers[static_cast<std::size_t>(axis)][1]] -= v;
                 // A surface passes through all cubes around an edge that it crosses, so the blocks of these cubes are
-                // active. Only if boundsIn() has returned wrong bounds, a block is not active; the triangles at this
-                // edge are then omitted.
+                // active. A block is inactive only if boundsIn() has returned wrong bounds; the triangles at this edge
+                // are then omitted.
                 complete = glm::all(glm::greaterThanEqual(other, glm::ivec3(0))) && blockOf(other).isActive;
                 if (!complete) break;
                 const CrossedCube& around = cubes_[cubeAt_[index(other)]];

@@ -24,16 +24,16 @@ namespace oval4d::slicing {
 
 /// Extracts the surfaces of slices by dual marching cubes on a cubic lattice. Skips blocks of the lattice that
 /// certainly contain no surface. A cube through which the surface passes gets one point per patch (see CubeCase).
-/// Newton's method moves this point onto the level set. Where the surface leaves the domain, the method also moves the
-/// point onto the walls of the domain (see FieldSection). So caps (see SliceSurface) are flat, and their rims are
+/// Newton's method moves this point onto the level set. Where the surface leaves the domain, Newton's method also moves
+/// the point onto the walls of the domain (see FieldSection). So caps (see SliceSurface) are flat, and their rims are
 /// sharp.
 ///
 /// Lattice points just beyond a wall are moved onto the wall before the function is sampled (as in F. Labelle, J.
-/// Shewchuk, "Isosurface stuffing", 2007). So the rims follow the values on the walls themselves. They are smooth even
-/// where a surface meets a wall at a small angle, in a wedge that is thinner than a cube.
+/// Shewchuk, "Isosurface stuffing", 2007). So the rims follow the values on the walls themselves. The rims are smooth
+/// even where a surface meets a wall at a small angle, so that the body is a wedge thinner than a cube.
 ///
-/// Reuses its memory, so that repeated calls of similar size allocate nothing. Only one thread at a time may use an
-/// extractor.
+/// An extractor keeps its memory, so that further extractions of similar size allocate nothing. Only one thread at a
+/// time may use it.
 class SurfaceExtractor {
   public:
     /// Says which surfaces to extract, and limits the work.
@@ -42,13 +42,14 @@ class SurfaceExtractor {
         fields::BodySide inside = fields::BodySide::below;
         /// The distance between neighboring lattice points, in the units of the object. The coordinates of lattice
         /// points are multiples of the step, so that the lattice stays in place while an object turns. The step is
-        /// enlarged if an axis would have more than kMaxCubes cubes.
+        /// enlarged if necessary, so that no axis has more than kMaxCubes cubes.
         double step = 0.1;
-        /// The limits on the estimated time of the extraction, in nanoseconds, and on the number of points of the
-        /// surfaces. The step is enlarged until both limits are met, or until no axis has more than 8 cubes.
+        /// `maxTime` limits the estimated time of the extraction, in nanoseconds. `maxPoints` limits the number of
+        /// points of the surfaces. The step is enlarged until both limits are met, or until no axis has more than 8
+        /// cubes.
         double maxTime = 1e9;
         std::size_t maxPoints = 10'000'000;
-        bool topologyOnly = false;  ///< whether only the topology of the surfaces is needed: see SurfaceDetail
+        bool topologyOnly = false;  ///< whether only the topology is needed: see SurfaceDetail::topologyOnly
         double pointTime = 0;  ///< the estimated time that the caller spends on each extracted point, in nanoseconds
     };
     static constexpr int kMaxCubes = 256;
@@ -62,17 +63,17 @@ class SurfaceExtractor {
   private:
     static constexpr int kBlock = 4;  // the number of cubes along each side of a block
     static constexpr std::size_t kBlockPoints = 64;
-    // The bits of a constraint mask, which says on what a point of the surface must lie. Bit 1 << i stands for wall i
-    // of the domain, kOnLevel for the level set, and kAtHole for the boundary of a hole, where the function has no
-    // value.
+    // The bits of a constraint mask, which says on what a point of the surface must lie. The bit 1 << i stands for wall
+    // i of the domain; kWalls has the bits of all walls. kOnLevel stands for the level set, and kAtHole for the
+    // boundary of a hole, a region where the function has no value.
     static constexpr std::uint16_t kWalls = 0xff, kOnLevel = 0x100, kAtHole = 0x200;
 
     struct Evaluation;
     struct LatticeBlock {
         bool isActive = false;  // whether the block may contain a surface
-        // If the block is sampled: a bit for each wall of the domain that it may touch or lie beyond.
+        // If the block is sampled: a bit for each wall of the domain that the block may touch or extend beyond.
         std::uint8_t walls = 0;
-        glm::u8vec3 needed{0};  // how many points along each axis are sampled, from the block's lower end on
+        glm::u8vec3 needed{0};  // how many points along each axis are sampled, from the least index on
         bool needsSampling() const { return needed.x != 0; }
     };
     // A lattice cube through which the surface passes, and the points of its patches.
@@ -82,17 +83,17 @@ class SurfaceExtractor {
         bool joined;          // whether the case of the cube is joinedCubeCase(inside), not cubeCase(inside)
         // For the edges from corner 0 along x, y and z: 1 if a cap crosses the edge, else 0.
         std::array<std::uint8_t, 3> cap;
-        std::uint32_t firstPoint;  // the index in positions_ of the first of the cube's points
+        std::uint32_t firstPoint;  // the index in positions_ of the point of the cube's first patch
     };
     // A corner of a lattice cube.
     struct CubeCorner {
         glm::dvec3 position;
-        bool inDomain;  // whether the corner is in the domain; also true if it was moved onto a wall
+        bool inDomain;  // whether the corner is in the domain, or has been moved onto its walls
     };
     // A place where the surface crosses an edge of the lattice.
     struct LatticeEdgeCrossing {
         glm::dvec3 position;
-        std::uint16_t constraint;  // the constraint mask (see kWalls) of the place: on what the place must lie
+        std::uint16_t constraint;  // the constraint mask (see kWalls): on what the place lies
     };
 
     using ExtentsTowardWalls = std::array<double, FieldSection::kMaxWalls>;
@@ -152,28 +153,30 @@ class SurfaceExtractor {
     std::uint8_t insideCornerMask(glm::ivec3 cube, std::size_t level) const;
 
     double step_ = 0;
-    // Per wall of the domain: a lattice point beyond the wall is moved onto the wall if its distance from the wall is
-    // at most this.
+    // Per wall of the domain: the greatest distance from the wall at which a lattice point beyond the wall is moved
+    // onto it.
     std::array<double, FieldSection::kMaxWalls> maxMoveOntoWall_{};
     double sign_ = 1, level_ = 0;  // the body of the current level is where sign_ · (f − level_) < 0 for the function f
     glm::ivec3 base_{0};           // the coordinates of the lattice point (0, 0, 0), in lattice steps
     glm::ivec3 blockCount_{0};     // the number of blocks along each axis, with an inactive block at the upper end
     glm::ivec3 points_{0};         // the numbers of lattice points along each axis
-    // The lattice indices of a cube's corners, minus that of its corner 0.
+    // The lattice indices of the corners of any cube, minus the lattice index of its corner 0.
     std::array<std::uint32_t, 8> cornerOffsets_{};
-    std::size_t capacity_ = 0;         // the number of elements of each of the next three arrays
+    std::size_t capacity_ = 0;         // the size of each of the arrays values_, inside_ and cubeAt_
     std::unique_ptr<float[]> values_;  // per lattice point of a sampled block: the value of the function
-    // Per lattice point: a bit for each level, set if the point is inside the level's body.
+    // Per lattice point of a sampled block: a bit for each level, set if the point is inside the level's body.
     std::unique_ptr<std::uint8_t[]> inside_;
-    // Per lattice point: the index in cubes_ of the cube whose corner 0 is this point.
+    // Per lattice point: the index in cubes_ of the cube whose corner 0 is this point; without meaning if cubes_ has
+    // none.
     std::unique_ptr<std::uint32_t[]> cubeAt_;
     std::vector<LatticeBlock> blocks_;
     std::vector<std::uint32_t> active_;  // the indices of the blocks that may contain a surface
     std::vector<CrossedCube> cubes_;     // the cubes through which the surface of the current level passes
-    // Per point of the surface of the current level: its position, and its position before it was moved.
+    // Per point of the surface of the current level: its position, and its first position, before Newton's method moved
+    // it.
     std::vector<glm::dvec3> positions_, starts_;
-    std::vector<std::uint32_t> moving_;  // the points of a batch that are now being moved onto the level set
-    // The triangles of the caps of the current level. They will follow the other triangles of this level in the result.
+    std::vector<std::uint32_t> moving_;  // the indices of the points that makeNewtonStep() moves
+    // The triangles of the caps of the current level. In the result, they follow the other triangles of this level.
     std::vector<std::array<std::uint32_t, 3>> caps_;
     // Per point of the surface of the current level: its constraint mask (see kWalls).
     std::vector<std::uint16_t> constraints_;

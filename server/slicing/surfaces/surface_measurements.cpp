@@ -43,7 +43,7 @@ class ConnectedComponents {
 
 struct VolumeAndMoment {
     double volume = 0;
-    // The volume times the centroid, where coordinates are relative to the point that represents the part.
+    // The volume of a connected part times its centroid, relative to the point that represents the part.
     glm::dvec3 moment{0};
 };
 

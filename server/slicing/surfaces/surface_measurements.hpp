@@ -1,5 +1,5 @@
 #pragma once
-// Measures the body that a closed surface bounds: its volume, surface area, centroid and topology.
+// Measures the body that a closed surface bounds: the volume, surface area, centroid and topology of the body.
 
 #include <cstddef>
 #include <cstdint>
@@ -14,8 +14,8 @@
 
 namespace oval4d::slicing {
 
-/// The measurements of the body inside a closed surface that is oriented outward. Lengths, areas and volumes are in the
-/// units of the object.
+/// The measurements of the body inside a closed surface that is oriented outward. The unit of length is that of the
+/// object.
 struct SurfaceMeasurements {
     double volume = 0;
     double area = 0;                     ///< the area of the level set, without caps
@@ -33,7 +33,7 @@ struct SurfaceMeasurements {
 /// Measures the surface of one level of a slice. `level` is the index of the level, as in SliceSurface::levelIndex().
 SurfaceMeasurements measureSurface(const SliceSurface& surface, std::size_t level);
 
-/// Returns the mean of a function over the level set, without caps, weighted by area. `values` are the values of the
+/// Returns the mean over the level set, without caps, of a function, weighted by area. `values` are the values of the
 /// function at the points of `surface`. The function is treated as linear in each triangle. Ignores triangles with a
 /// value that is not finite. Returns an empty optional if the area of the remaining triangles is 0.
 std::optional<double> meanOnSurface(const ClosedSurface& surface, std::span<const float> values);
@@ -44,7 +44,7 @@ struct SurfaceComponents {
 
     /// The volume that a connected part encloses, and its Euler characteristic.
     struct SurfacePart {
-        double volume = 0;  ///< in the units of the object; negative for the surface of a cavity
+        double volume = 0;  ///< in cubic units of the object; negative for the surface of a cavity
         long euler = 0;     ///< the Euler characteristic of the part
     };
     /// Per point: the index in `parts` of the part to which the point belongs; kNone for points of other levels.

@@ -1,7 +1,7 @@
 // Draws the parallel coordinates at the bottom of the picture. Each vertex has four vertical lines, which show its
-// coordinates. If there are many vertices, a density strip replaces them: each vertex is a line that joins its
-// coordinates on four axes, and the strip shows how many lines pass through each point. Only highlighted vertices then
-// have visible lines. For a field, four histograms show how its values are distributed along each axis.
+// coordinates. If there are many vertices, a density strip replaces these lines: each vertex is then a line that joins
+// its coordinates on four axes. The strip shows how many of these lines pass through each point. Only highlighted
+// vertices then have visible lines. For a field, four histograms show how its values are distributed along each axis.
 
 import type { AxisUnits, HistogramScales, SceneDescription, Slices, Viewport } from "@oval4d/protocol";
 
@@ -17,7 +17,10 @@ const kFocusMark = 0.009; // half the width of the mark at the focus slice's w, 
 
 const density = new DensityImage();
 
-/** `leastText` is the least font size of names, in canvas pixels. */
+/**
+ * Draws the parallel coordinates, the density strip or the histograms of a picture. `leastText` is the least font size
+ * of names, in canvas pixels.
+ */
 export function drawCoordinates(
     pen: CanvasRenderingContext2D,
     picture: Slices,
@@ -43,7 +46,8 @@ export function vertexInCoordinatesAt(picture: Slices, { height }: Viewport, x: 
     if (columns > 0) return vertexInDensityStripAt(picture, x / height, 1 - y / height);
     const fromFirst = x / height - (layout.left - layout.line_step / 2);
     const column = Math.floor(fromFirst / layout.column_step);
-    const belowTop = layout.zero - (1 - y / height); // the distance below the zero line of the first row
+    // The distance below the zero line of the first row, in viewport heights.
+    const belowTop = layout.zero - (1 - y / height);
     const row = Math.round(belowTop / layout.row_step);
     const vertex = row * perRow + column;
     const isInTable = column >= 0 && column < perRow && row >= 0 && row < rows;

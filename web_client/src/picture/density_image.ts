@@ -9,8 +9,9 @@ export class DensityImage {
     private density: Uint8Array | undefined;
 
     /**
-     * Converts the densities of a picture to pixels. In a density strip, colors between two axes are interpolated
-     * between the axes' colors. In a histogram, each panel has the color of its axis.
+     * Converts the densities of a picture to pixels: each density becomes the alpha of its pixel. In a density strip,
+     * colors between two axes are interpolated between the axes' colors. In a histogram, each panel has the color of
+     * its axis.
      */
     update({ density, scene: { colors, coordinates } }: Slices): void {
         if (density === this.density) return;

@@ -7,8 +7,8 @@ import { cssColor } from "./pen";
 
 // The most lines that are drawn over a density strip. density_strip_lines.hpp has the same number.
 const kMaxLinesOverDensityStrip = 400;
-// A point within kLineReach of a line is on the line. Distances that differ by less than kEqual count as equal. Both
-// are in viewport heights, and are the same in density_strip_lines.hpp and .cpp.
+// A point at most kLineReach above or below a line counts as on the line. Distances that differ by at most kEqual count
+// as equal. Both constants are in viewport heights, and are the same in density_strip_lines.hpp and .cpp.
 const kLineReach = 0.006;
 const kEqual = 1e-6;
 
@@ -23,7 +23,7 @@ function verticesWithLines(ownVertices: Iterable<number>): number[] {
     return Array.from({ length: last + 1 }, (_, i) => all[Math.floor((i * (all.length - 1)) / last)]!);
 }
 
-/** Draws the lines of the vertices of highlighted elements. */
+/** Draws a line for each of the vertices that verticesWithLines() chooses from `ownVertices`. */
 export function drawLinesOverDensityStrip(
     pen: CanvasRenderingContext2D,
     { coordinates: values, scene }: Slices,
@@ -57,7 +57,8 @@ export function drawLinesOverDensityStrip(
 export function vertexInDensityStripAt(picture: Slices, atX: number, atY: number): number | undefined {
     const { coordinates: values, highlight, scene } = picture;
     const { amplitude, left, line_step: step, line_width: width, zero } = scene.coordinates;
-    const right = atX - (left + width / 2); // the distance from the middle of the axis x
+    // The distance to the right of the middle of the axis x, in viewport heights.
+    const right = atX - (left + width / 2);
     if (step <= 0 || right < -kLineReach || right > 3 * step + kLineReach) return undefined;
     const along = Math.min(Math.max(right / step, 0), 3);
     const axis = Math.min(Math.floor(along), 2);

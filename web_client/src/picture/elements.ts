@@ -13,7 +13,7 @@ export interface SliceElementRanges {
     vertices: IndexRange;
     edges: IndexRange;
     faces: IndexRange;
-    distance: number; // the distance from `position` to the eye at the last sort
+    distance: number; // the distance from `position` to the eye when the slices were last sorted
 }
 
 /** The flat arrays of the vertices, edges and faces of all drawn slices. */
@@ -27,9 +27,10 @@ export class SliceElements {
     edges = new Uint32Array(0); // the indices of two vertices for each edge
     cornerBegin = new Uint32Array(1); // face f has corners[cornerBegin[f]] … corners[cornerBegin[f + 1] − 1]
     corners = new Uint32Array(0);
-    cornerEdges = new Uint32Array(0); // the index of the edge from each corner to the next
+    // For each corner, the index of the edge from this corner to the next corner of its face.
+    cornerEdges = new Uint32Array(0);
     normals = new Float32Array(0); // x, y, z of each face's outward normal
-    // The edges of a slice, grouped by the smaller vertex index of each edge.
+    // The edges of the slice that is being written, grouped by the smaller vertex index of each edge.
     readonly edgesByVertex = new EdgeBuckets();
     private readonly spare: SliceElementRanges[] = []; // unused objects, kept for pictures with more slices
 

@@ -28,7 +28,10 @@ export class FilledFacesMesh {
     private readonly shapes = new ShapeBuffers();
     private readonly index = new GrowingBuffer(Uint32Array, 1);
 
-    /** Writes the triangles of a new picture; returns false if no slice has a fill. */
+    /**
+     * Writes the triangles of a new picture. Returns false if no slice has a `fill`, the triangles to draw instead of
+     * faces.
+     */
     update(picture: Slices, highlighted: HighlightedElements): boolean {
         const { slices, scene } = picture;
         let points = 0;
@@ -48,8 +51,8 @@ export class FilledFacesMesh {
     }
 
     /**
-     * Writes the colors of the triangles to the buffers. With `change`, writes only those whose cell is highlighted now
-     * or was before.
+     * Writes the colors of the triangles to the buffers. With `change`, writes only the colors of triangles whose cell
+     * is highlighted now or was before.
      */
     writeColorsToBuffers({ scene }: Slices, highlighted: HighlightedElements, change?: HighlightChange): void {
         const { colors, opacity, faded } = scene;
@@ -104,7 +107,8 @@ export class FilledFacesMesh {
             const [vx, vy, vz] = [points[c]! - points[a]!, points[c + 1]! - points[a + 1]!, points[c + 2]! - points[a + 2]!];
             const [nx, ny, nz] = [uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx];
             const length = Math.hypot(nx, ny, nz) || 1;
-            shapes.setVector("to", first + c / 3, nx / length, ny / length, nz / length); // the last point: see writeColorsToBuffers()
+            // The shader takes the normal of a triangle from the triangle's last point, like the color.
+            shapes.setVector("to", first + c / 3, nx / length, ny / length, nz / length);
             for (const corner of [a, b, c]) shapes.setShape(first + corner / 3, kFace);
         }
     }

@@ -102,7 +102,7 @@ const kUniforms = [
 
 const kSamplers = ["lattice", "blocks", "table", "frameDepths", "surfaceDepths"] as const;
 
-const kBlock = 4; // cells of a lattice along each side of a block
+const kBlock = 4; // the number of lattice cells along each side of a block
 // The least fraction of light that a layer of fog lets through if it is as thick as the circumradius. This also limits
 // opaque fog (alpha 255), so that its absorption stays finite.
 const kClearest = 1e-4;

@@ -29,7 +29,7 @@ ColorManagement.enabled = false; // colors are sRGB values, shown unchanged
 export class GeometryView {
     readonly viewCamera = new ViewCamera();
     private readonly renderer: WebGLRenderer;
-    private readonly scene = new Scene(); // the slices
+    private readonly scene = new Scene(); // contains the drawings of the slices
     private readonly projectionScene = new Scene();
     private readonly camera = new Camera();
     private readonly slicesMesh = new SlicesMesh();
@@ -132,7 +132,8 @@ export class GeometryView {
         this.fogPainter.update(picture);
         this.slicesMesh.update(picture, !filled && !isField, highlighted);
         this.fillDrawing.visible = filled;
-        const needsDepths = filled || isField || picture.scene.opacity === 1; // see `opacity` in protocol/README.md
+        // With the opacity 1, faces may cross each other, or the object is a surface (see protocol/README.md).
+        const needsDepths = filled || isField || picture.scene.opacity === 1;
         this.drawing.material = needsDepths ? this.solidMaterial : this.paintedMaterial;
         this.sortedOrbit = undefined;
         const { light, ball, bar } = picture.scene;

@@ -1,5 +1,5 @@
-// Which elements are drawn in the highlight color. They are the kept element, which the user has clicked and which is
-// the `highlight` of the state, and the element under the pointer.
+// Which elements are drawn in the highlight color. They are the kept element and the element under the pointer. The
+// kept element, which the user has clicked, is the `highlight` of the state.
 
 import type { Highlight, PolytopeElement, SceneDescription, Slices, State } from "@oval4d/protocol";
 
@@ -9,8 +9,8 @@ export type ElementCounts = Pick<State["polytope"], "edges" | "faces" | "cells">
 /** The vertices, edges and faces of a picture that are drawn in the highlight color. */
 export interface HighlightedElements {
     /**
-     * Numbers in the arrays `of.vertices` and `of.edges` of slices and of the projection; they identify elements of the
-     * polytope (see Elements).
+     * Numbers in the arrays `of.vertices` and `of.edges` of slices and of the projection. The number of a slice vertex
+     * or edge identifies the element of the polytope from which it was cut.
      */
     vertices: ReadonlySet<number>;
     edges: ReadonlySet<number>;

@@ -17,8 +17,8 @@ import type { ViewCamera } from "./view_camera";
 export interface ElementHit {
     kind: "vertices" | "edges" | "faces" | "points";
     /**
-     * The element's number in the array `of` (see Elements and PlanarSection). It identifies an element of the
-     * polytope.
+     * The element's number in the array `of` of its slice, part of the projection or planar section. elementOfHit()
+     * converts it to an element of the polytope.
      */
     source: number;
     /** The slice in which the element was hit; absent in the projection and in the matrix. */
@@ -64,7 +64,7 @@ interface PickableMesh {
     slice?: Slice;
     position: Vector;
     scale: number;
-    magnification: number; // vertices are within this factor times scale · circumradius of `position`
+    magnification: number; // a bound: every vertex is within magnification · scale · circumradius of `position`
     ball: number; // the radius of balls in world units; 0 if they are not drawn
     bar: number; // the radius of bars in world units; 0 if they are not drawn
     hasFaces: boolean; // whether the faces are drawn
@@ -85,7 +85,8 @@ interface HitWithDepth {
     depth: number;
 }
 
-export const kReach = 4; // CSS pixels: the pointer hits a ball or bar within this distance, even if they are thinner
+// CSS pixels: the pointer hits a ball or bar whose middle is within this distance, however thin it is.
+export const kReach = 4;
 // How far the hit test moves balls and bars toward the viewer, in multiples of their radii. A ball is then nearer than
 // the faces around it and the bars that end in it.
 const kBallRise = 3;
@@ -100,7 +101,7 @@ const kStride = 5;
 
 /**
  * Finds the element or the surface of a field at the pixel (x, y) of the picture; undefined if there is none. If
- * several meshes are at the pixel, takes the one whose center is nearest to the eye, and of this mesh the nearest
+ * several meshes are at the pixel, chooses the mesh whose center is nearest to the eye. Of this mesh, finds the nearest
  * element or surface. Slices come before the projection, because they are drawn over it. In the projection of a field,
  * the surface, the bars of the box and those of the section count as one mesh. `ratio` is the number of picture pixels
  * per CSS pixel.
@@ -170,8 +171,8 @@ function mayHitMesh(mesh: PickableMesh, { scene }: Slices, viewCamera: ViewCamer
 }
 
 /**
- * Finds the nearest element or surface of one mesh at the pixel (x, y). `reach` is the least radius of balls and bars,
- * in pixels.
+ * Finds the nearest element or surface of one mesh at the pixel (x, y). `reach` is the least radius of balls and bars
+ * for the test, in pixels of the picture.
  */
 class MeshHitTest {
     private depth = Infinity;
@@ -271,8 +272,8 @@ class MeshHitTest {
     }
 
     /**
-     * Tests for all faces whether they are at the pixel. Each entry of `elements.faces` is one loop. Consecutive loops
-     * with the same number in `of.faces` form one face.
+     * Tests for all faces whether they are at the pixel. Each entry of `elements.faces` is one closed loop of corners.
+     * Consecutive loops with the same number in `of.faces` form one face.
      */
     private testFaces(): void {
         const { of, seen: visibility } = this.mesh.elements;
@@ -305,7 +306,8 @@ class MeshHitTest {
                 p = q;
             }
         }
-        if (winding === 0) return Infinity; // nearly all faces end here, so the plane of a face is computed after it
+        // Most faces do not cover the pixel, so their planes are computed only after this test.
+        if (winding === 0) return Infinity;
         let [nx, ny, nz] = [0, 0, 0];
         for (let loop = firstLoop; loop < endLoop; ++loop) {
             const [x, y, z] = doubleAreaVector(projected, corners, [begin[loop]!, begin[loop + 1]!], kStride);

@@ -124,7 +124,8 @@ type Quadruple = [number, number, number, number];
 
 /** Fills the section of a convex polytope. Does nothing if the edges of the section do not form one closed polygon. */
 function drawFill({ section: { boundary } }: MatrixPanel, points: Pixel[], { pen, scene }: PanelDrawingContext): void {
-    const isConvex = scene.opacity < 1; // see `opacity` in protocol/README.md
+    // The opacity is 1 if the polytope may be nonconvex (see `opacity` in protocol/README.md).
+    const isConvex = scene.opacity < 1;
     if (boundary.length === 0 || !isConvex) return;
     pen.globalAlpha = kFillOpacity;
     pen.fillStyle = cssColor(scene.colors.ball);
@@ -134,8 +135,8 @@ function drawFill({ section: { boundary } }: MatrixPanel, points: Pixel[], { pen
 }
 
 /**
- * Draws two lines through the focus point. In them, the panel's plane meets the planes of the other panels in its row
- * and in its column.
+ * Draws two lines through the focus point, along the two axes of the panel. Along one line, the panel's plane meets the
+ * planes of the other panels in its column; along the other line, those in its row.
  */
 function drawFocusLines(panel: MatrixPanel, box: Box, { pen, matrix, scene, viewport }: PanelDrawingContext): void {
     const { row, column, section } = panel;

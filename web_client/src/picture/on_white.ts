@@ -11,7 +11,10 @@ const kMostLuminance = 1.05 / kLeastContrast - 0.05;
 
 const numberOf = (color: string): number => parseInt(color.slice(1), 16);
 const { dark, light } = table.schemes;
-/** The greatest opacity of translucent faces. The value 1 has another meaning: see `opacity` in protocol/README.md. */
+/**
+ * The greatest opacity of translucent faces. The value 1 has another meaning: faces may cross each other, or the object
+ * is a surface (see protocol/README.md).
+ */
 const kMostTranslucent = 0.999;
 
 function fixedColors({ text, focus, ball, bar, zero, highlight, axes }: typeof dark): number[] {

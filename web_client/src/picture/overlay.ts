@@ -9,7 +9,7 @@ import { drawMatrix } from "./matrix_drawing";
 import { cssColor, setFontAndMeasureDigits } from "./pen";
 import type { ViewCamera } from "./view_camera";
 
-/** `leastText` is the least font size of labels, in canvas pixels. */
+/** Draws everything that lies over the slices. `leastText` is the least font size of labels, in canvas pixels. */
 export function drawOverlay(
     pen: CanvasRenderingContext2D,
     picture: Slices,
@@ -56,13 +56,13 @@ interface PlacedSliceLabel {
     size: number; // font size
     digits: number; // height of the digits
     half: number; // half the width of the text
-    room: number; // half the width that other labels must leave free
+    room: number; // half the width that the label reserves for itself
 }
 
 /**
- * Draws the labels of the slices. Enlarges labels that are too small to read. Omits a label that overlaps the label of
- * a slice nearer to the focus slice, or that an edge of the picture would cut. Always draws the label of the focus
- * slice.
+ * Draws the labels of the slices. Enlarges labels that are too small to read. Omits a label that an edge of the picture
+ * would cut. Also omits a label that overlaps the label of a slice nearer to the focus slice. Always draws the label of
+ * the focus slice.
  */
 function drawLabels(
     pen: CanvasRenderingContext2D,
@@ -106,7 +106,8 @@ function drawLabels(
             Math.abs(other.y - label.y) > 1.1 * digits;
         if (slice.focus || (whole && placed.every(apart))) placed.push(label);
     }
-    for (const label of placed.reverse()) drawLabel(pen, scene, label); // the focus slice's label last, on top
+    // The label of the focus slice is drawn last, on top.
+    for (const label of placed.reverse()) drawLabel(pen, scene, label);
 }
 
 function drawLabel(pen: CanvasRenderingContext2D, { colors }: SceneDescription, label: PlacedSliceLabel): void {
@@ -133,7 +134,9 @@ function drawLabel(pen: CanvasRenderingContext2D, { colors }: SceneDescription, 
     pen.fillText(slice.label, x, baseline);
 }
 
-/** Draws the axes x, y and z in the upper left corner of the picture, as the camera sees them, from far to near. */
+/**
+ * Draws the axes x, y and z, as the camera sees them, in the upper left corner of the picture. Draws far axes first.
+ */
 function drawAxes(
     pen: CanvasRenderingContext2D,
     scene: SceneDescription,

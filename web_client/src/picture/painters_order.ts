@@ -23,7 +23,7 @@ export class PaintersOrder {
     private scratch = new Uint32Array(0); // working memory of sortByKey()
     private rank = new Uint32Array(0); // the index of each vertex in `order`
     private readonly sliceRanges: SliceElementRanges[] = []; // the slices from far to near
-    // The edges of a slice, grouped by the rank of each edge's farther vertex.
+    // The edges of a slice, grouped by the index in `order` of each edge's farther vertex.
     private readonly edgesByRank = new EdgeBuckets();
     private out = new Uint32Array(0);
     private used = 0;

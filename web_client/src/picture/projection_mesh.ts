@@ -49,9 +49,9 @@ export class ProjectionMesh {
     private readonly solidIndex = new GrowingBuffer(Uint32Array, 1);
     private readonly translucentIndex = new GrowingBuffer(Uint32Array, 1);
     private used = 0; // number of vertices in `shapes`
-    private polygons: ProjectionPartPolygons[] = []; // the polygons of each part of the picture
-    // Arrays with one entry for each translucent shape: its first vertex, its number of vertices, and its depth point
-    // (kMiddle …).
+    private polygons: ProjectionPartPolygons[] = []; // the polygons of each part of the projection
+    // Arrays with one entry for each translucent shape: its first vertex, its number of vertices, and the point that
+    // determines its depth (kMiddle, kCenter, kFarEnd or kNearEnd).
     private first = new Uint32Array(0);
     private size = new Uint32Array(0);
     private depthKind = new Uint8Array(0);
@@ -273,7 +273,10 @@ function polygonsOf({ vertices, faces, of, tints, seen, fill }: ProjectionPart):
     return fill ? polygonsOfFill(fill) : { points: vertices, faces, tints: tints ?? of.faces, seen: seen?.faces };
 }
 
-/** Joins consecutive triangles of a fill to convex polygons (see Fill). */
+/**
+ * Joins consecutive triangles of a fill to convex polygons. The triangles of a polygon form a fan around its first
+ * point.
+ */
 function polygonsOfFill({ points, triangles, tints, seen }: Fill): ProjectionPartPolygons {
     const begin = [0];
     const corners: number[] = [];

@@ -16,7 +16,7 @@ uniform vec3 light;
 uniform vec4 shading;  // ambient, diffuse, specular, shininess
 uniform float ballRadius, barRadius, pixels;
 in vec3 at, to;  // a ball's center and relative radius (to.x); a bar's ends; a face's corner and normal
-in vec4 shape;   // -1, 1 across; -1, 1 along; the kind of patch; a bar's radius in percent of barRadius
+in vec4 shape;   // -1 or 1 across; -1 or 1 along; the kind of patch; a bar's radius in percent of barRadius
 in vec4 color;
 out vec3 place;  // u, v, and half the radius in pixels
 flat out vec3 diffuse, specular, tint;
@@ -27,11 +27,11 @@ out float depth;        // z of the patch in camera coordinates
 flat out float bulge;   // how far the body rises above the patch toward the viewer
 #endif
 
-const float kThinnest = 0.6;      // radius in pixels
-const float kMinFootRadius = 1.8;  // in pixels; thinner bars have no foot
+const float kThinnest = 0.6;      // the least radius, in pixels
+const float kMinFootRadius = 1.8;  // radius in pixels; thinner bars have no foot
 
-// Widens a radius, in pixels, to at least kThinnest. Returns the factor. Sets alpha, and place.z to half the new
-// radius.
+// Widens a radius, in pixels, to at least kThinnest. Returns the factor by which the radius grows. Sets alpha to the
+// opacity that makes up for it, and place.z to half the new radius.
 float widen(float radius, bool round) {
     float part = min(radius / kThinnest, 1.0);
     alpha = round ? part * part : part;

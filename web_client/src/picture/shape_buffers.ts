@@ -10,7 +10,7 @@ const kCorners = [-1, -1, 1, -1, -1, 1, 1, 1] as const;
 /** The two triangles of a quad, as numbers of its corners. */
 export const kQuadTriangles = [0, 1, 2, 2, 1, 3] as const;
 
-/** The value in the fourth component of `shape` that means the thickness 1. */
+/** The value in the fourth component of `shape` for bars as thick as the uniform barRadius. */
 export const kFullThickness = 100;
 
 export class ShapeBuffers {

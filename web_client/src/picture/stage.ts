@@ -25,11 +25,15 @@ export type SizeLimits = Partial<Pick<Limits, "min_side" | "max_width" | "max_he
 
 const kMaxPixels = 4_000_000; // the most pixels of a picture on the page; more cost time without visible benefit
 const kPrintPixels = 6_000_000; // the most pixels of a printed picture: about 300 dots per inch on a sheet of A4
-const kMaxPrintSide = 4096; // pixels; some browsers do not draw larger canvases
+// The longest side of a printed picture, in pixels; some browsers do not draw larger canvases.
+const kMaxPrintSide = 4096;
 const kLeastText = 9; // the least height of texts, in CSS pixels
 const kLeastTextInFullScreen = 0.02; // the least height of texts in full screen, in window heights
 
-/** The largest factor by which a picture of this size can be enlarged within the limits. */
+/**
+ * The largest factor by which a picture of this size can be enlarged within the limits; less than 1 if its size exceeds
+ * a limit.
+ */
 function largestScale({ width, height }: Viewport, limits: SizeLimits, maxPixels: number, maxSide: number): number {
     return Math.min(
         Math.sqrt(Math.min(maxPixels, limits.max_pixels ?? Infinity) / (width * height)),

@@ -17,7 +17,7 @@ export interface SurfaceHit {
     cap: boolean;
 }
 
-const kSlack = 1e-6; // enlarges triangles by this fraction, so that no ray passes between two neighbors
+const kSlack = 1e-6; // the test enlarges triangles by this fraction, so that no ray passes between two neighbors
 
 /**
  * Finds the first drawn triangle that a ray meets in front of the eye; undefined if the ray meets none. Tests all
@@ -28,7 +28,7 @@ export function hitOnSurface(
     looks: readonly SurfaceLevel[],
     { start, direction }: SliceRay,
 ): SurfaceHit | undefined {
-    const isDrawn = new Uint8Array(512); // index: 2 · level + cap
+    const isDrawn = new Uint8Array(512); // at the index 2 · level + cap: 1 if such triangles are drawn
     for (const look of looks) {
         isDrawn[2 * look.level] = 1;
         isDrawn[2 * look.level + 1] = look.caps ? 1 : 0;

@@ -28,7 +28,7 @@ layout(location = 0) in vec3 point;
 layout(location = 1) in vec3 normal;
 layout(location = 2) in vec4 pointColor;  // blue, green, red, 0
 uniform mat4 view, projection;
-uniform vec4 place;  // the world position of the slice's origin, and the scale
+uniform vec4 place;  // xyz: the world position of the slice's origin; w: world units per unit of the object
 uniform vec4 color;  // not premultiplied by alpha
 uniform bool hasPointColors;
 out vec3 seen, tint, material;

@@ -11,7 +11,7 @@ export interface ScreenPoint {
     y: number;
 }
 
-const kMaxPitch = 1.55; // radians; at π/2 the up direction would be undefined
+const kMaxPitch = 1.55; // the greatest elevation of the camera, in radians; at π/2 the up direction would be undefined
 
 export class ViewCamera {
     readonly view = new Matrix4();
@@ -79,13 +79,19 @@ export class ViewCamera {
         points[at + 4] = ((1 - (f[5]! * points[at + 1]!) / depth + f[9]!) / 2) * this.height;
     }
 
-    /** The ray through the pixel (x, y): the camera coordinates x and y of its point at depth 1. */
+    /**
+     * The ray through the pixel (x, y): the camera coordinates x and y of its point at the distance 1 along the view
+     * axis.
+     */
     rayAt(x: number, y: number): [number, number] {
         const f = this.projection.elements;
         return [((2 * x) / this.width - 1 + f[8]!) / f[0]!, (1 - (2 * y) / this.height + f[9]!) / f[5]!];
     }
 
-    /** The ray through the pixel (x, y): the vector in world space from the eye to its point at depth 1. */
+    /**
+     * The ray through the pixel (x, y): the vector in world space from the eye to its point at the distance 1 along the
+     * view axis.
+     */
     worldRayAt(x: number, y: number): [number, number, number] {
         const [right, up] = this.rayAt(x, y);
         const view = this.view.elements;
@@ -104,7 +110,7 @@ export class ViewCamera {
         return new Vector3().setFromMatrixColumn(this.view, i);
     }
 
-    /** The number of pixels per world unit at depth 1. */
+    /** The number of pixels per world unit at the distance 1 along the view axis. */
     get pixelsPerUnit(): number {
         return (this.projection.elements[5]! * this.height) / 2;
     }
