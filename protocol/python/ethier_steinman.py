@@ -40,7 +40,7 @@ def create_netcdf(path):
     return file, add
 
 
-def write(path):
+def write_speed(path):
     space, time = numpy.linspace(-1, 1, SIZE), numpy.linspace(0, DURATION, MOMENTS)
     t, z, y, x = numpy.meshgrid(time, space, space, space, indexing="ij")
     file, add = create_netcdf(path)
@@ -52,7 +52,7 @@ def write(path):
     file.close()
 
 
-write(FILE)
+write_speed(FILE)
 with connect("http://127.0.0.1:8080/") as oval:
     oval.hello()
     with open(FILE, "rb") as data:

@@ -24,7 +24,7 @@ def step(u, v):
             v + DIFFUSION_V * laplacian(v) + reaction - (FEED + KILL) * v)
 
 
-def seed(random):
+def initial_substances(random):
     u, v = numpy.ones((SIZE,) * 3, "f4"), numpy.zeros((SIZE,) * 3, "f4")
     for corner in random.integers(SIZE // 4, SIZE // 2, (4, 3)):
         part = tuple(slice(low, low + SIZE // 8) for low in corner)
@@ -34,7 +34,7 @@ def seed(random):
 
 def simulate(moments, steps):
     """Yields for each moment the array of the amounts of the second substance."""
-    substances = seed(numpy.random.default_rng(4))
+    substances = initial_substances(numpy.random.default_rng(4))
     yield substances[1]
     for _ in range(1, moments):
         for _ in range(steps):

@@ -20,7 +20,7 @@ CHUNK = (1, 128, 128, 128)  # samples of a chunk along t, z, y and x: 8 MiB; the
 SMALLEST = 1 << 24          # samples; a level with at most this many gets no coarser level
 
 
-def source_of(name):
+def open_source_array(name):
     """Returns the source as a lazy array of 32-bit floats with the axes t, z, y and x. To read another format, such as
     HDF5, return dask.array.from_array(h5py_dataset) instead."""
     path, _, variable = name.partition("::")
@@ -72,7 +72,7 @@ def main():
     if len(sys.argv) != 3:
         sys.exit(__doc__)
     source, target = sys.argv[1:]
-    (write_npy if target.endswith(".npy") else write_levels)(source_of(source), target)
+    (write_npy if target.endswith(".npy") else write_levels)(open_source_array(source), target)
 
 
 if __name__ == "__main__":

@@ -675,7 +675,7 @@ def _netcdf_file(arrays):
     if any(values.shape != shape for values in arrays.values()):
         raise ValueError("the arrays must have the same shape")
 
-    def text(name):
+    def padded_name(name):
         return struct.pack(">i", len(name)) + name.encode() + bytes(-len(name) % 4)
 
     def tagged_list(tag, items):
@@ -685,12 +685,12 @@ def _netcdf_file(arrays):
     absent, number, dimension, variable = bytes(8), 5, 10, 11  # codes of the NetCDF format: an empty list, float32, two lists
 
     def header(begin):
-        dimensions = [text(f"d{i}") + struct.pack(">i", size) for i, size in enumerate(shape)]
+        dimensions = [padded_name(f"d{i}") + struct.pack(">i", size) for i, size in enumerate(shape)]
         variables = []
         for name, bytes_of in zip(arrays, data):
             places = struct.pack(f">i{len(shape)}i", len(shape), *range(len(shape)))
             size = min(len(bytes_of), 0xFFFFFFFC)
-            variables.append(text(name) + places + absent + struct.pack(">iIq", number, size, begin))
+            variables.append(padded_name(name) + places + absent + struct.pack(">iIq", number, size, begin))
             begin += len(bytes_of)
         return b"CDF\x02" + bytes(4) + tagged_list(dimension, dimensions) + absent + tagged_list(variable, variables)
 
@@ -749,7 +749,7 @@ def from_json(text):
                                     for name, value in piece["surface"].items()}
             if "fog" in piece:
                 fog = piece["fog"]
-                fog["values"] = _fog_values(bytes(itertools.chain(*fog["values"])), fog["size"])
+                fog["values"] = _fog_values_as_array(bytes(itertools.chain(*fog["values"])), fog["size"])
     return message
 
 
@@ -928,11 +928,11 @@ def _fogs_of(columns):
     values = _split_by_sizes(columns["values"], [math.prod(map(operator.index, size)) for size in sizes])
     minima = _split_by_sizes(columns["min"], [1] * len(sizes), 3)
     return [{"size": size.tolist(), "min": least.tolist(), "step": step,
-             "walls": [own[i : i + 4].tolist() for i in range(0, len(own), 4)], "values": _fog_values(row, size)}
+             "walls": [own[i : i + 4].tolist() for i in range(0, len(own), 4)], "values": _fog_values_as_array(row, size)}
             for size, least, step, own, row in zip(sizes, minima, columns["step"], walls, values)]
 
 
-def _fog_values(values, size):
+def _fog_values_as_array(values, size):
     """Returns the values of fog, whose x varies fastest, in the form that slices() describes."""
     if numpy is not None:
         return numpy.frombuffer(bytearray(values), numpy.uint8).reshape(tuple(reversed(size)))

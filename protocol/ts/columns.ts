@@ -69,7 +69,7 @@ export interface SliceColumns extends ElementColumns {
 }
 
 /** The member `projection.parts` of a message in a binary encoding. */
-export interface PartColumns extends ElementColumns {
+export interface ProjectionColumns extends ElementColumns {
     looks: ProjectionLook[];
 }
 
@@ -94,7 +94,7 @@ function rangesOfSizes(sizes: Integers, length: number): IndexRange[] {
     return all;
 }
 
-function vector(flat: Float32Array, i: number): Vector {
+function vectorAt(flat: Float32Array, i: number): Vector {
     return [flat[3 * i]!, flat[3 * i + 1]!, flat[3 * i + 2]!];
 }
 
@@ -167,9 +167,9 @@ export function slicesFromColumns(columns: SliceColumns, allocate: IntegerAlloca
         const slice: Slice = {
             index,
             w: columns.w[i]!,
-            position: vector(columns.position, i),
+            position: vectorAt(columns.position, i),
             label: columns.label[i]!,
-            label_at: vector(columns.label_at, i),
+            label_at: vectorAt(columns.label_at, i),
             label_size: columns.label_size[i]!,
             focus: columns.focus[i]!,
             drawn: columns.drawn[i]!,
@@ -185,7 +185,7 @@ export function slicesFromColumns(columns: SliceColumns, allocate: IntegerAlloca
  * Converts the columns of the projection's parts to one object per part. The arrays in the objects are views of the
  * arrays in `columns`, or come from `allocate`.
  */
-export function partsFromColumns(columns: PartColumns, allocate: IntegerAllocator): ObjectProjection["parts"] {
+export function partsFromColumns(columns: ProjectionColumns, allocate: IntegerAllocator): ObjectProjection["parts"] {
     return elementsOf(columns, allocate).map((elements, i) => ({ ...columns.looks[i]!, ...elements }));
 }
 
@@ -230,7 +230,7 @@ function fogsOf(fog: NonNullable<SliceColumns["fog"]>): Fog[] {
     const points = rangesOfSizes(Uint32Array.from(sizes, ([x, y, z]) => x * y * z), fog.values.length);
     return sizes.map((size, i) => ({
         size,
-        min: vector(fog.min, i),
+        min: vectorAt(fog.min, i),
         step: fog.step[i]!,
         walls: fog.walls.subarray(4 * walls[i]![0], 4 * walls[i]![1]),
         values: fog.values.subarray(...points[i]!),

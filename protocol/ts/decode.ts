@@ -4,7 +4,7 @@
 import * as cborX from "cbor-x/decode-no-eval";
 
 import type { Arena, TypedArrayConstructor } from "./arena.js";
-import { partsFromColumns, slicesFromColumns, type SliceColumns, type PartColumns } from "./columns.js";
+import { partsFromColumns, slicesFromColumns, type SliceColumns, type ProjectionColumns } from "./columns.js";
 import type { Encoding } from "./messages.js";
 import type { Elements, Fog, Integers, ObjectProjection, ProjectionLook, Slice, Slices, Surface } from "./slices.js";
 import type { Message } from "./types.js";
@@ -358,7 +358,7 @@ function withTypedArrays(message: Message): Message {
         coordinates?: FlatOrNested<Float32Array>;
         density?: FlatOrNested<Uint8Array>;
         slices: JsonSlice[] | SliceColumns;
-        projection?: Omit<ObjectProjection, "parts"> & { parts: (JsonElements & ProjectionLook)[] | PartColumns };
+        projection?: Omit<ObjectProjection, "parts"> & { parts: (JsonElements & ProjectionLook)[] | ProjectionColumns };
     };
     const { scene, slices, projection, ...rest } = loose;
     return {

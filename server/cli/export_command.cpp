@@ -30,7 +30,7 @@ const exports::Format& outputFormatOf(const ExportOutputOptions& options) {
 /// Returns the names in a table of choices, separated by "|", such as "solid|skeleton". If several names have the same
 /// value, returns only the name that text::nameOf() returns for this value.
 template <typename Choices>
-std::string alternativesOf(const Choices& choices) {
+std::string choiceNamesJoinedByBars(const Choices& choices) {
     std::string out;
     for (const auto& [name, value] : choices) {
         if (name != text::nameOf(choices, value)) continue;
@@ -43,7 +43,7 @@ std::string alternativesOf(const Choices& choices) {
 /// Returns the limits of an export from the command line. The limits on triangles, bytes and time are far above those
 /// of the server, because here the user decides how much time and memory to spend. The limit on slices is the server's
 /// default.
-exports::ExportLimits commandLineLimits() {
+exports::ExportLimits commandLineExportLimits() {
     exports::ExportLimits limits;
     limits.triangles = 50'000'000;
     limits.bytes = std::numeric_limits<std::size_t>::max();
@@ -60,20 +60,21 @@ void addExportOptions(CLI::App& app, ExportOutputOptions& options) {
                    text::commaSeparated(exports::formatNames()) + "; default: from the output's extension");
     app.allow_extras();
     app.footer("The contents of the file, as far as its format can contain them:\n  --of " +
-               alternativesOf(exports::kExportContents) + "\n  --body " + alternativesOf(exports::kBodies) +
-               "  --size MILLIMETERS  --label " + alternativesOf(exports::kLabels) +
+               choiceNamesJoinedByBars(exports::kExportContents) + "\n  --body " +
+               choiceNamesJoinedByBars(exports::kBodies) + "  --size MILLIMETERS  --label " +
+               choiceNamesJoinedByBars(exports::kLabels) +
                "\n  --at W,W,… (slices at these w)  --fit N (N slices that all meet the object)"
                "\n  --exact on|off (on: the surfaces of a field are cut from its samples exactly)\n" +
-               stateHelp());
+               stateOptionsHelp());
 }
 
 void exportFile(const CLI::App& app, const ExportOutputOptions& options) {
     session::QueryParameters query = queryFromArguments(app.remaining());
     const auto request =
-        valueOrThrow(wire::extractExportRequest(query, outputFormatOf(options), commandLineLimits().slices));
+        valueOrThrow(wire::extractExportRequest(query, outputFormatOf(options), commandLineExportLimits().slices));
     const auto state = loadState(query, session::kFileParameters);
     const auto file =
-        valueOrThrow(pipeline::exportFile(session::pictureRequestOf(state), request, commandLineLimits()));
+        valueOrThrow(pipeline::exportFile(session::pictureRequestOf(state), request, commandLineExportLimits()));
     for (const std::string& warning : file.warnings) std::cerr << "oval4d: " << warning << '\n';
     writeOutput(options.output, file.bytes);
 }

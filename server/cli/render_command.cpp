@@ -18,7 +18,7 @@ void addRenderOptions(CLI::App& app, RenderOptions& options) {
     app.add_option("--width", options.width, "The width of the picture in pixels")->capture_default_str();
     app.add_option("--height", options.height, "The height of the picture in pixels")->capture_default_str();
     app.allow_extras();
-    app.footer(stateHelp());
+    app.footer(stateOptionsHelp());
 }
 
 void renderPicture(const CLI::App& app, const RenderOptions& options, parallel::ForkJoin& forkJoin) {

@@ -53,11 +53,11 @@ std::optional<std::string> takeParameter(session::QueryParameters& query, std::s
     return value;
 }
 
-bool isArray(const fields::FileContents& file) {
+bool isArrayFile(const fields::FileContents& file) {
     return fields::formatOfFile(file.bytes.first(std::min(file.bytes.size(), fields::kRecognizedBytes))) != nullptr;
 }
 
-bool isZarr(const std::filesystem::path& folder) {
+bool isZarrFolder(const std::filesystem::path& folder) {
     return std::ranges::any_of(fields::kZarrFiles,
                                [&](std::string_view file) { return std::filesystem::exists(folder / file); });
 }
@@ -65,7 +65,7 @@ bool isZarr(const std::filesystem::path& folder) {
 /// Reads the object in a file, a Zarr folder, or a folder with a series of files. Maps array files into memory, because
 /// they may be larger than the main memory. Removes from `query` the options that say how to read an object of this
 /// kind, for example "axes" for an array or "center" for a polytope.
-Result<session::ObjectWithWarnings> readFile(const std::string& path, session::QueryParameters& query) {
+Result<session::ObjectWithWarnings> readObjectTakingOptions(const std::string& path, session::QueryParameters& query) {
     const std::string fileName = std::filesystem::path(path).filename().string();
     const std::string name = session::objectNameFor(fileName, session::Limits{});
     if (name != fileName)
@@ -73,7 +73,7 @@ Result<session::ObjectWithWarnings> readFile(const std::string& path, session::Q
                   << " in pictures and files\n";
     const bool isFolder = std::filesystem::is_directory(path);
     const auto mapped = fields::FileContents::map(std::filesystem::path(path));
-    if (isFolder || (mapped && isArray(*mapped))) {
+    if (isFolder || (mapped && isArrayFile(*mapped))) {
         fields::FieldReadOptions options{
             takeParameter(query, "axes").value_or(""), {}, takeParameter(query, "variable").value_or("")};
         if (const auto text = takeParameter(query, "box")) options.box = valueOrThrow(session::parseBox(*text));
@@ -84,7 +84,7 @@ Result<session::ObjectWithWarnings> readFile(const std::string& path, session::Q
         if (!second.formula.empty() && !second.variable.empty())
             throw std::runtime_error("give either --values or --values_variable, not both");
         if (!isFolder) return session::readArray(*mapped, name, options, second);
-        if (!isZarr(path)) {
+        if (!isZarrFolder(path)) {
             const auto series = fields::seriesFiles(path);
             if (!series) return series.error();
             std::vector<fields::FileContents> files;
@@ -118,7 +118,7 @@ Result<session::ObjectWithWarnings> readFile(const std::string& path, session::Q
 
 /// Returns the state in a picture made by oval4d, or in a JSON file with a `state` message. Returns an empty optional
 /// for any other file. Throws std::runtime_error if the state is invalid.
-std::optional<session::State> readState(const std::string& path, session::ObjectLoader& loader) {
+std::optional<session::State> readStateIfPresent(const std::string& path, session::ObjectLoader& loader) {
     if (std::filesystem::is_directory(path)) return {};
     const auto file = fields::FileContents::map(std::filesystem::path(path));
     if (!file) return {};
@@ -134,11 +134,12 @@ std::optional<session::State> readState(const std::string& path, session::Object
 
 /// Returns the state in a file. If the file contains an object, returns the initial state with this object, and prints
 /// warnings about the object to standard error. On failure, throws std::runtime_error with a message for the user.
-session::State stateFromFile(const std::string& path, session::QueryParameters& query, session::ObjectLoader& loader) {
-    if (const auto state = readState(path, loader)) return *state;
+session::State stateShowingFile(const std::string& path, session::QueryParameters& query,
+                                session::ObjectLoader& loader) {
+    if (const auto state = readStateIfPresent(path, loader)) return *state;
     if (std::ranges::find(query, session::kFormula, &session::QueryParameters::value_type::first) != query.end())
         throw std::runtime_error("a formula and another object cannot be shown at the same time");
-    const auto reading = readFile(path, query);
+    const auto reading = readObjectTakingOptions(path, query);
     if (!reading) throw std::runtime_error(path + ": " + reading.error().message);
     for (const std::string& warning : reading->warnings) std::cerr << "oval4d: " << path << ": " << warning << '\n';
     session::State state = session::initialState();
@@ -148,11 +149,11 @@ session::State stateFromFile(const std::string& path, session::QueryParameters& 
 
 /// An option that says how to read files of one kind; `files` is the name of this kind in error messages. The options
 /// "box" and "values" are not in kReadingOptions, because they also apply to formulas.
-struct FileKindOption {
+struct OptionForOneFileKind {
     std::string_view name;
     std::string_view files;
 };
-constexpr auto kReadingOptions = std::to_array<FileKindOption>({
+constexpr auto kReadingOptions = std::to_array<OptionForOneFileKind>({
     {"axes", "arrays"},
     {"region", "arrays"},
     {"variable", "arrays"},
@@ -160,10 +161,11 @@ constexpr auto kReadingOptions = std::to_array<FileKindOption>({
     {"center", "polytopes, surfaces and points"},
 });
 
-/// Throws std::runtime_error if the query still contains an option that says how to read a file. readFile() has removed
-/// the options for the kind of file that was read, so the option is for another kind.
+/// Throws std::runtime_error if the query still contains an option that says how to read a file.
+/// readObjectTakingOptions() has removed the options for the kind of file that was read, so the option is for another
+/// kind.
 void checkNoReadingOptionIsLeft(const session::QueryParameters& query) {
-    for (const FileKindOption& option : kReadingOptions) {
+    for (const OptionForOneFileKind& option : kReadingOptions) {
         if (std::ranges::find(query, option.name, &session::QueryParameters::value_type::first) == query.end())
             continue;
         throw std::runtime_error("--" + std::string(option.name) + " is only for " + std::string(option.files) +
@@ -176,16 +178,16 @@ void checkNoReadingOptionIsLeft(const session::QueryParameters& query) {
 session::State loadState(session::QueryParameters query, std::span<const std::string_view> others) {
     std::vector<std::string_view> known(others.begin(), others.end());
     known.emplace_back("load");
-    for (const FileKindOption& option : kReadingOptions) known.push_back(option.name);
+    for (const OptionForOneFileKind& option : kReadingOptions) known.push_back(option.name);
     polytopes::PolytopeCache cache;
     session::ObjectLoader loader(session::Limits{}, cache);
     session::State state = session::initialState();
-    if (const auto path = takeParameter(query, "load")) state = stateFromFile(*path, query, loader);
+    if (const auto path = takeParameter(query, "load")) state = stateShowingFile(*path, query, loader);
     checkNoReadingOptionIsLeft(query);
     return valueOrThrow(session::stateFromQuery(query, session::Limits{}, loader, std::move(state), known));
 }
 
-std::string stateHelp() {
+std::string stateOptionsHelp() {
     return "All other options describe the state, as for :set and the query of frame.png:\n"
            "  --polytope 24-cell --rotate xw,yz:pi/8,pi/sqrt(3)-pi/8 --slices 31 --view single --background white\n"
            "--load FILE shows a polytope or a surface from a 4OFF file, the points of a file whose first word is "

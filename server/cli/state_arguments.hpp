@@ -41,6 +41,6 @@ T valueOrThrow(Result<T> result) {
 void writeOutput(const std::string& path, std::string_view bytes);
 
 /// Returns the part of the `--help` text that lists the options that describe a state.
-std::string stateHelp();
+std::string stateOptionsHelp();
 
 }  // namespace oval4d

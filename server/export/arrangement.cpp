@@ -13,10 +13,10 @@ namespace {
 
 double gapBetweenBodies(double size) { return std::max(size / 12, 2.0); }
 
-BoundingBox boxOf(const SliceBodies& group) {
+BoundingBox boundingBoxOf(const SliceBodies& group) {
     BoundingBox box;
     for (const PlacedMesh& solid : group.bodies) {
-        const BoundingBox own = exports::boxOf(solid.mesh);
+        const BoundingBox own = exports::boundingBoxOf(solid.mesh);
         box.include(own.min + solid.at);
         box.include(own.max + solid.at);
     }
@@ -37,7 +37,7 @@ void arrangeOnPlate(std::vector<SliceBodies>& groups, double size, const Roundin
         double x = 0;
         double depth = 0;
         for (std::size_t i = row; i < std::min(row + perRow, groups.size()); ++i) {
-            const BoundingBox box = boxOf(groups[i]);
+            const BoundingBox box = boundingBoxOf(groups[i]);
             translateBodies(groups[i], glm::dvec3(x, y, 0) - box.min, grid);
             x += box.size().x + gap;
             depth = std::max(depth, box.size().y);
@@ -52,7 +52,7 @@ void arrangeInOval(std::vector<SliceBodies>& groups, const scene::Scene& scene, 
     std::vector<double> radii;
     for (const SliceBodies& group : groups) {
         places.push_back(scene.placements[group.slice].position * perWorld);
-        const BoundingBox box = boxOf(group);
+        const BoundingBox box = boundingBoxOf(group);
         radii.push_back(std::max(glm::length(box.min), glm::length(box.max)));
     }
     double grow = 1;

@@ -99,7 +99,7 @@ class ExportBudget {
     /// Returns the maximum number of triangles in all bodies together (ExportLimits::triangles).
     std::size_t triangleLimit() const { return limits_.triangles; }
     /// Returns the maximum time of the whole export (ExportLimits::time).
-    std::chrono::duration<double> time() const { return limits_.time; }
+    std::chrono::duration<double> timeLimit() const { return limits_.time; }
     /// Returns the token that says whether a stop is requested.
     std::stop_token stopToken() const { return stop_; }
 

@@ -77,7 +77,7 @@ class Exporter {
     std::string writeBytes() {
         const Format& format = *request_.format;
         refuseUnsupportedContents();
-        if (format.writeDrawing != nullptr) return format.writeDrawing(drawing());
+        if (format.writeDrawing != nullptr) return format.writeDrawing(drawAtRequestedSize());
         refuseUnsupportedObjects();
         if (format.writeScene != nullptr)
             return format.writeScene(
@@ -101,7 +101,7 @@ class Exporter {
         }
     }
 
-    Drawing drawing() const {
+    Drawing drawAtRequestedSize() const {
         Drawing drawn = draw();
         drawn.size = request_.size;
         return drawn;
@@ -112,18 +112,18 @@ class Exporter {
         std::vector<int> empty, thin;  // slices that the file lacks, because they are empty or too thin for a body
         const scene::Color color = request_.body == BodyKind::skeleton ? scene::style().bar : colorOfSolids();
         std::size_t triangles = 0;
-        if (request_.body == BodyKind::skeleton) prepareSkeleton();
-        if (hasSurfaces_) prepareSurfaces();
+        if (request_.body == BodyKind::skeleton) chooseSkeletonResolution();
+        if (hasSurfaces_) createSurfaceSource();
         for (int i = 0; i < slices_.planes.count; ++i) {
             budget_.checkTimeAndStop();
             std::vector<PlacedMesh> solids;
             if (hasSurfaces_) {
-                solids = surfaceBodies(i);
+                solids = fieldBodiesOfSlice(i);
             } else {
                 Mesh mesh = request_.body == BodyKind::skeleton
                                 ? skeletonOf(slices_, i, scale_, radii_, cube_, grid_, budget_)
                                 : solidOf(slices_, i, scale_, grid_, budget_);
-                if (!mesh.triangles.empty()) solids.push_back({sliceNameOf(i), std::move(mesh), color, glm::dvec3(0)});
+                if (!mesh.triangles.empty()) solids.push_back({bodyNameOf(i), std::move(mesh), color, glm::dvec3(0)});
             }
             if (solids.empty()) {
                 (isEmpty(i) ? empty : thin).push_back(i);
@@ -135,9 +135,9 @@ class Exporter {
         }
         if (groups.empty() && element_) refuseFlatElement();
         if (groups.empty()) throwEmptyExport();
-        if (!empty.empty()) warnings_.push_back(warningOfOmission(slices_.planes, empty, "empty", originInFile().w));
+        if (!empty.empty()) warnings_.push_back(omittedSlicesWarning(slices_.planes, empty, "empty", originInFile().w));
         if (!thin.empty())
-            warnings_.push_back(warningOfOmission(slices_.planes, thin, "flat or too thin", originInFile().w));
+            warnings_.push_back(omittedSlicesWarning(slices_.planes, thin, "flat or too thin", originInFile().w));
         if (request_.label != LabelPlacement::none) addLabels(groups);
         if (request_.format->arrangement == Format::BodyArrangement::plate) {
             arrangeOnPlate(groups, request_.size, grid_);
@@ -157,7 +157,7 @@ class Exporter {
     }
 
     /// Returns whether slice i has nothing to export: no point of the object or, for bodies of a field, no surface. For
-    /// bodies of a field, the last call of surfaceBodies() must have been for slice i.
+    /// bodies of a field, the last call of fieldBodiesOfSlice() must have been for slice i.
     bool isEmpty(int i) const {
         if (hasSurfaces_) return lastSurfaceIsEmpty_;
         return slices_.vertexCount(i) == 0;
@@ -166,7 +166,7 @@ class Exporter {
     /// Returns whether the file, because it is for a printer, has only the body of the outermost level of a field.
     bool hasOneLevel() const { return request_.format->arrangement == Format::BodyArrangement::plate; }
 
-    void prepareSurfaces() {
+    void createSurfaceSource() {
         const fields::Field& field = *slicing::fieldIn(object_);
         if (hasOneLevel() && !scene_.surfaces.levels.empty()) {
             surfaces_.emplace(scene_, field, orientation_, request_.exact,
@@ -178,13 +178,13 @@ class Exporter {
 
     /// Returns the bodies of one slice of a field, from the outermost level to the innermost. If hasOneLevel(), returns
     /// only the body of the outermost level, which contains the others. Leaves out levels without a body.
-    std::vector<PlacedMesh> surfaceBodies(int i) {
+    std::vector<PlacedMesh> fieldBodiesOfSlice(int i) {
         const auto& levels = scene_.surfaces.levels;
         const FieldSliceSurface slice = surfaces_->surfaceOfSlice(i);
         lastSurfaceIsEmpty_ = slice.surface.triangles.empty();
         std::vector<PlacedMesh> solids;
         for (std::size_t level = levels.size(); level-- > 0;) {
-            std::string name = sliceNameOf(i);
+            std::string name = bodyNameOf(i);
             if (levels.size() > 1) appendDecimal(name += ", level ", scene_.look.field.levels[levels[level].index]);
             Mesh mesh = fieldBodyOf(scene_, slice, i, level, scale_, surfaceGrid_, budget_);
             if (!mesh.triangles.empty())
@@ -202,12 +202,12 @@ class Exporter {
         std::size_t done = 0;
         for (SliceBodies& group : groups) {
             budget_.checkTimeAndStop();
-            const LabelText text(scene_.title, wLabelOf(group.slice));
+            const LabelText text(scene_.title, bodyLabelOf(group.slice));
             if (request_.label == LabelPlacement::engraved) {
                 done += text.engrave(group.bodies.front().mesh, request_.size, grid_, budget_) ? 1 : 0;
                 continue;
             }
-            const BoundingBox box = boxOf(group.bodies.front().mesh);
+            const BoundingBox box = boundingBoxOf(group.bodies.front().mesh);
             const glm::dvec3 front{(box.min.x + box.max.x) / 2, box.min.y - request_.size / 12, box.min.z};
             group.bodies.push_back({group.bodies.front().name + " (label)", text.makeLabelPlate(request_.size, grid_),
                                     scene::style().bar, grid_.snap(front)});
@@ -227,9 +227,9 @@ class Exporter {
         }
     }
 
-    void prepareSkeleton() {
+    void chooseSkeletonResolution() {
         radii_ = skeletonRadii(scene_, scale_);
-        const double coarse = estimateTriangles(slices_, scale_, radii_);
+        const double coarse = estimateSkeletonTriangles(slices_, scale_, radii_);
         const double allowed = std::min(kTargetTriangles, static_cast<double>(budget_.triangleLimit()));
         const double cube = std::clamp(std::sqrt(coarse / allowed), kFineCube, kCoarseCube);
         budget_.checkTrianglesAndMemory(static_cast<std::size_t>(coarse / (cube * cube)));
@@ -242,8 +242,8 @@ class Exporter {
         cube_ = std::max(cube * radii_.bar, std::min(largest, kGoodFieldStep * grid_.step()));
     }
 
-    std::string sliceNameOf(int i) const { return scene_.title + ", " + wLabelOf(i); }
-    std::string wLabelOf(int i) const {
+    std::string bodyNameOf(int i) const { return scene_.title + ", " + bodyLabelOf(i); }
+    std::string bodyLabelOf(int i) const {
         if (element_) return nameOfElement();
         return request_.contents == ExportContentsKind::projection ? "projection"
                                                                    : labelOfW(slices_.planes, i, originInFile().w);
@@ -294,7 +294,7 @@ class Exporter {
     /// Throws ExportRefused, with `message` and the reason, if the whole polytope is at most kFewSteps grid steps
     /// large. This happens if the polytope is small and far from the origin, because ExportRequest::size is the
     /// diameter of a sphere around the origin.
-    void refuseIfTiny(const std::string& message) const {
+    void refuseIfPolytopeTiny(const std::string& message) const {
         constexpr double kFewSteps = 8;
         BoundingBox box;
         for (const glm::dvec4& v : slices_.rotatedVertices) box.include(scale_ * glm::dvec3(v));
@@ -339,10 +339,10 @@ class Exporter {
         const std::string noun(objectProperties().noun);
         std::string message = many ? "no slice has a volume" : "the slice at ";
         if (!many) {
-            message += wLabelOf(0);
+            message += bodyLabelOf(0);
             message += slices_.vertices.empty() ? " is empty" : " has no volume";
         }
-        refuseIfTiny(message);
+        refuseIfPolytopeTiny(message);
         const std::string advice = request_.choosesSlices() ? "choose other slices" : "move the focus";
         throw ExportRefused{{ExportRefusal::Cause::no_body,
                              message + ": the " + (isField ? "box of the field" : noun) +
@@ -364,7 +364,8 @@ class Exporter {
     double cube_ = 0;
     bool hasSurfaces_ = false;  // whether the bodies are those that the surfaces of a field enclose
     std::optional<FieldSurfaceSource> surfaces_;
-    bool lastSurfaceIsEmpty_ = false;  // whether the slice for which surfaceBodies() was called last has no surface
+    bool lastSurfaceIsEmpty_ =
+        false;  // whether the slice for which fieldBodiesOfSlice() was called last has no surface
     std::vector<std::string> warnings_;
 };
 

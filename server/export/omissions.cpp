@@ -7,8 +7,8 @@
 
 namespace oval4d::exports {
 
-std::string warningOfOmission(const geometry::Hyperplanes& planes, std::span<const int> slices, std::string_view reason,
-                              double origin) {
+std::string omittedSlicesWarning(const geometry::Hyperplanes& planes, std::span<const int> slices,
+                                 std::string_view reason, double origin) {
     constexpr std::size_t kListed = 12;
     const bool isOne = planes.count == 1;
     std::string out = isOne ? "the slice" : std::to_string(slices.size()) + " of " + std::to_string(planes.count);

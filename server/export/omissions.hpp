@@ -14,7 +14,7 @@ namespace oval4d::exports {
 /// indices of the missing slices in `planes`, from 0, in ascending order; there must be at least one. `reason` follows
 /// the word "are", for example "empty". `origin` is the w of ObjectInfo::originInFile, and is added to each w. The text
 /// contains no semicolon. Its only character outside of ASCII is the minus sign U+2212.
-std::string warningOfOmission(const geometry::Hyperplanes& planes, std::span<const int> slices, std::string_view reason,
-                              double origin = 0);
+std::string omittedSlicesWarning(const geometry::Hyperplanes& planes, std::span<const int> slices,
+                                 std::string_view reason, double origin = 0);
 
 }  // namespace oval4d::exports

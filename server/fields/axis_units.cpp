@@ -66,7 +66,8 @@ std::optional<ConstantSliceCoordinate> constantSliceCoordinate(const Field& fiel
     return found;
 }
 
-std::string placeInBox(const Field& field, const geometry::Rotation& orientation, double w, double spacing) {
+std::string constantSliceCoordinateText(const Field& field, const geometry::Rotation& orientation, double w,
+                                        double spacing) {
     const auto coordinate = constantSliceCoordinate(field, orientation);
     if (!coordinate) return {};
     const std::string& unit = field.units.at(static_cast<std::size_t>(coordinate->axis));

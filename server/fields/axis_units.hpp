@@ -48,7 +48,8 @@ std::optional<ConstantSliceCoordinate> constantSliceCoordinate(const Field& fiel
 /// "box x = 0.5 m" or "box w = 130". Returns an empty text if there is no such coordinate, or if the coordinate is w
 /// itself and has no unit. `spacing` is the distance between slices; the text has enough decimals to distinguish
 /// neighboring slices.
-std::string placeInBox(const Field& field, const geometry::Rotation& orientation, double w, double spacing);
+std::string constantSliceCoordinateText(const Field& field, const geometry::Rotation& orientation, double w,
+                                        double spacing);
 
 /// Returns the unit of lengths in a slice w = const of the picture: the common unit of the axes x, y and z if all three
 /// are to scale. Returns an empty string if their units differ, or if an axis is not to scale.

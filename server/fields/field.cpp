@@ -73,7 +73,7 @@ Field makeField(std::string name, std::shared_ptr<const ScalarFunction> function
     return field;
 }
 
-bool Field::isLost() const {
+bool Field::hasLostSamples() const {
     const auto lost = [](const ArrayFunction* each) {
         return each != nullptr && each->storage().file() && each->storage().file()->isLost();
     };
@@ -81,7 +81,7 @@ bool Field::isLost() const {
 }
 
 void Field::requireReadable() const {
-    if (isLost()) throw std::runtime_error("the file of the field can no longer be read");
+    if (hasLostSamples()) throw std::runtime_error("the file of the field can no longer be read");
 }
 
 void setSecondFunction(Field& field, SecondFunction second) {

@@ -85,8 +85,8 @@ struct Field : geometry::ObjectInfo {
 
     /// Returns whether samples are lost: whether the array or the second array is in a mapped file of which a part
     /// could not be read, or which has changed (see MappedFile::isLost()).
-    bool isLost() const;
-    /// Throws std::runtime_error if isLost(), because values that were read may be wrong.
+    bool hasLostSamples() const;
+    /// Throws std::runtime_error if hasLostSamples(), because values that were read may be wrong.
     void requireReadable() const;
 
     /// Returns the function whose values color the surfaces with scene::Coloring::value. The result is the second

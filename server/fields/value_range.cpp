@@ -25,7 +25,7 @@ namespace {
 
 // Returns the full and the typical range of the values. The typical range contains the middle 98 % of the values, and
 // is extended at both ends by `margin` times its length, but not beyond the full range.
-FullAndTypicalRange fullAndTypicalRangeWith(std::span<const float> values, double margin) {
+FullAndTypicalRange fullAndTypicalRangeWithMargin(std::span<const float> values, double margin) {
     std::vector<float> found;
     found.reserve(values.size());
     for (const float value : values)
@@ -45,7 +45,9 @@ FullAndTypicalRange fullAndTypicalRangeWith(std::span<const float> values, doubl
 
 }  // namespace
 
-FullAndTypicalRange fullAndTypicalRange(std::span<const float> values) { return fullAndTypicalRangeWith(values, 0.1); }
+FullAndTypicalRange fullAndTypicalRange(std::span<const float> values) {
+    return fullAndTypicalRangeWithMargin(values, 0.1);
+}
 
 const ValueRange& TypicalRangeOnBox::typicalRange() const {
     std::call_once(measured_, [&] {
@@ -76,7 +78,7 @@ const ValueRange& TypicalRangeOnBox::typicalRange() const {
         }
         // Large, so that the range, which becomes a color scale, rarely excludes an extreme value.
         constexpr double kMargin = 0.5;
-        range_ = fullAndTypicalRangeWith(values, kMargin).typical;
+        range_ = fullAndTypicalRangeWithMargin(values, kMargin).typical;
     });
     return range_;
 }

@@ -36,7 +36,7 @@ FileReaderPool::~FileReaderPool() {
     for (const ChildProcessPtr& process : waiting_) process->kill();  // a waiting process has no file to finish
 }
 
-FileReaderPool::ChildProcessPtr FileReaderPool::acquire() {
+FileReaderPool::ChildProcessPtr FileReaderPool::acquireProcess() {
     {
         const std::lock_guard lock(mutex_);
         if (!waiting_.empty()) {
@@ -73,7 +73,8 @@ void FileReaderPool::replaceUsedProcesses(const std::stop_token& stop) {
         std::vector<ChildProcessPtr> used = std::exchange(used_, {});
         std::vector<ChildProcessPtr> surplus;
         if (used.empty() && Clock::now() >= lastUsed_ + idle) surplus = std::exchange(waiting_, {});
-        // Together, there may be more than maxWaiting processes: if none is waiting, acquire() creates a new one.
+        // Together, there may be more than maxWaiting processes: if none is waiting, acquireProcess() creates a new
+        // one.
         while (!used.empty() && waiting_.size() + used.size() > options_.maxWaiting) {
             surplus.push_back(std::move(used.back()));
             used.pop_back();
@@ -153,7 +154,7 @@ class FileReadConversation {
 
     TransferResult sendFoundFile(const Channel& channel, const WaitLimit& limit) {
         const auto [path, part] = decodeFindRequest(outcome);
-        const auto found = load_.folder->find(path, part, limit.until, limit.stop);
+        const auto found = load_.folder->findFile(path, part, limit.until, limit.stop);
         if (!found) {
             if (limit.stop.stop_requested()) return TransferResult::timed_out;
             refused = found.error();
@@ -200,7 +201,7 @@ Result<session::ObjectWithWarnings> FileReaderPool::read(const session::LoadObje
             FileReaderPool& readers;
             ChildProcessPtr process;
             ~Lease() { readers.retireProcess(std::move(process)); }
-        } const lease{*this, acquire()};
+        } const lease{*this, acquireProcess()};
         try {
             lease.process->converseWithRetry(
                 [&](const Channel& channel, const WaitLimit& limit) {

@@ -66,7 +66,7 @@ class FileReaderPool {
     using Clock = std::chrono::steady_clock;
     using ChildProcessPtr = std::unique_ptr<process::ChildProcess>;
 
-    ChildProcessPtr acquire();
+    ChildProcessPtr acquireProcess();
     void retireProcess(
         ChildProcessPtr used);  // gives a process that has read a file to the thread of replaceUsedProcesses()
     void replaceUsedProcesses(const std::stop_token& stop);

@@ -71,8 +71,9 @@ class RequestedObjectReader {
         if (request_.seriesLength == 0 && !load.file && !request_.isFolder)
             return session::readObject(load, request_.limits);
         fields::MappedFileMaker newFile;
-        if (request_.mayMap) newFile = [this](std::size_t bytes) { return requestFile(bytes); };
-        const fields::FieldReadOptions options = session::optionsForReading(load, request_.limits, std::move(newFile));
+        if (request_.mayMap) newFile = [this](std::size_t bytes) { return requestNewFile(bytes); };
+        const fields::FieldReadOptions options =
+            session::fieldReadOptionsFor(load, request_.limits, std::move(newFile));
         if (request_.isFolder) {
             const auto find = [this](const std::string& path, const fields::FilePart& part) {
                 return findFile(path, part);
@@ -94,7 +95,7 @@ class RequestedObjectReader {
 
     // Requests a new file of `bytes` bytes from the server. If there is no room for the file, the server kills this
     // process and does not answer.
-    Result<std::shared_ptr<fields::MappedFile>> requestFile(std::size_t bytes) {
+    Result<std::shared_ptr<fields::MappedFile>> requestNewFile(std::size_t bytes) {
         channel_.send(MessageType::new_file, {reinterpret_cast<const char*>(&bytes), sizeof bytes});
         auto file =
             fields::MappedFile::mapForWriting(std::make_shared<const fields::FileHandle>(receiveDescriptor(channel_)));
@@ -133,7 +134,7 @@ class RequestedObjectReader {
 
 // Executes the request in `body`, the body of a message MessageType::file. Replaces `body` by the body of the answer, a
 // message MessageType::outcome. `descriptor` is the open file that came with the request, or kNoFile.
-void replaceByOutcome(const Channel& channel, std::string& body, int descriptor) {
+void replaceRequestByOutcome(const Channel& channel, std::string& body, int descriptor) {
     try {
         FileReadRequest request;
         decodeReadRequest(body, request);
@@ -164,7 +165,7 @@ void runFileReader(int socket, const process::Confinement& confinement) {
     std::string body;
     int descriptor = Channel::kNoFile;
     if (channel.receive(type, body, &descriptor) != TransferResult::complete) return;
-    replaceByOutcome(channel, body, descriptor);
+    replaceRequestByOutcome(channel, body, descriptor);
     channel.send(MessageType::outcome, body);
 }
 

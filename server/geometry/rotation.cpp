@@ -52,11 +52,11 @@ glm::dquat powerOf(const glm::dquat& q, double fraction) {
 
 }  // namespace
 
-std::string_view name(Plane plane) { return kNames[static_cast<std::size_t>(plane)]; }
+std::string_view planeName(Plane plane) { return kNames[static_cast<std::size_t>(plane)]; }
 
 std::optional<Plane> planeNamed(std::string_view text) {
     for (const Plane plane : kPlanes) {
-        if (name(plane) == text) return plane;
+        if (planeName(plane) == text) return plane;
     }
     return std::nullopt;
 }
@@ -114,7 +114,7 @@ Rotation::Rotation(const RotationAngles& turn) {
     right_ = exponential(right);
 }
 
-RotationAngles Rotation::turn() const {
+RotationAngles Rotation::smallestAngles() const {
     // The quaternions (−l, −r) give the same rotation as (l, r). `sign` is −1 if (−l, −r) give smaller angles.
     const double sign = left_.w + right_.w < 0 ? -1 : 1;
     const glm::dvec3 left = logarithm(sign * left_), right = logarithm(sign * right_);

@@ -24,7 +24,7 @@ inline constexpr std::array<Plane, 6> kPlanes{Plane::xy, Plane::xz, Plane::xw, P
 constexpr Plane orthogonalComplement(Plane plane) { return static_cast<Plane>(5 - static_cast<int>(plane)); }
 
 /// Returns the name of a plane, from "xy" to "zw".
-std::string_view name(Plane plane);
+std::string_view planeName(Plane plane);
 
 /// Returns the plane with this name, or an empty optional if no plane has this name.
 std::optional<Plane> planeNamed(std::string_view text);
@@ -97,7 +97,7 @@ class Rotation {
     /// Returns the turn with the smallest angles that gives this rotation. Where an angle would be 0 except for
     /// rounding errors, the turn has no angle, so the turn of the identity has no angles. For the rotation v ↦ −v,
     /// returns one of several turns.
-    RotationAngles turn() const;
+    RotationAngles smallestAngles() const;
     /// Returns the image of v.
     glm::dvec4 operator()(const glm::dvec4& v) const;
     /// Returns the matrix M of this rotation, with v' = M v.

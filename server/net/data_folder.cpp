@@ -89,9 +89,9 @@ class ZarrFolderOnDisk final : public fields::FolderFileProvider {
   public:
     explicit ZarrFolderOnDisk(std::shared_ptr<const fields::FileHandle> folder) : folder_(std::move(folder)) {}
 
-    Result<std::optional<fields::FoundFile>> find(const std::string& path, const fields::FilePart& /*part*/,
-                                                  std::chrono::steady_clock::time_point /*until*/,
-                                                  const std::stop_token& /*stop*/) const override {
+    Result<std::optional<fields::FoundFile>> findFile(const std::string& path, const fields::FilePart& /*part*/,
+                                                      std::chrono::steady_clock::time_point /*until*/,
+                                                      const std::stop_token& /*stop*/) const override {
         const int file = file_reading::openFileWithin(folder_->descriptor(), path);
         if (file < 0) return std::optional<fields::FoundFile>();
         return std::optional(fields::FoundFile{std::make_shared<const fields::FileHandle>(file), {}});
@@ -102,12 +102,12 @@ class ZarrFolderOnDisk final : public fields::FolderFileProvider {
     const std::shared_ptr<const fields::FileHandle> folder_;
 };
 
-bool isZarr(const fs::path& folder) {
+bool isZarrFolder(const fs::path& folder) {
     const fields::FileHandle handle(openWithoutFollowing(AT_FDCWD, folder.string(), O_DIRECTORY));
     return handle.descriptor() >= 0 && !versionOfZarr(handle.descriptor()).empty();
 }
 
-bool isArray(int file) {
+bool isArrayFile(int file) {
     std::array<std::byte, fields::kRecognizedBytes> start{};
     const ssize_t size = pread(file, start.data(), start.size(), 0);
     return size > 0 && fields::formatOfFile(std::span(start).first(static_cast<std::size_t>(size))) != nullptr;
@@ -215,10 +215,10 @@ std::vector<std::string> DataFolder::readNames() const {
         if (!isAllowedName(name) || (type != fs::file_type::regular && type != fs::file_type::directory)) continue;
         if (type == fs::file_type::directory) {
             const auto files = fields::seriesFiles(entry->path());
-            if (!isZarr(entry->path()) && (!files || files->empty())) continue;
+            if (!isZarrFolder(entry->path()) && (!files || files->empty())) continue;
         } else {
             const fields::FileHandle file(openWithoutFollowing(AT_FDCWD, entry->path().string(), 0));
-            if (file.descriptor() < 0 || !isArray(file.descriptor())) continue;
+            if (file.descriptor() < 0 || !isArrayFile(file.descriptor())) continue;
         }
         found.push_back(name);
     }
@@ -289,11 +289,12 @@ std::string DataFolder::currentVersion(const OpenedEntry& opened) {
 /// Returns the cached field with the key `key`, or a copy of it with the name `name` if its name differs. Marks the
 /// field as the most recently used. Returns an empty optional if the cache lacks the field or if the field's file can
 /// no longer be read. The caller must hold mutex_.
-std::optional<session::ObjectWithWarnings> DataFolder::find(const std::string& key, const std::string& name) {
+std::optional<session::ObjectWithWarnings> DataFolder::findCachedField(const std::string& key,
+                                                                       const std::string& name) {
     const auto found = std::ranges::find(recent_, key, &CachedField::key);
     if (found == recent_.end()) return {};
     const slicing::FieldPtr field = std::get<slicing::FieldPtr>(found->loaded.object);
-    if (field->isLost()) {
+    if (field->hasLostSamples()) {
         bytes_ -= found->bytes;
         recent_.erase(found);
         return {};
@@ -369,7 +370,7 @@ Result<session::ObjectWithWarnings> DataFolder::read(const session::LoadObject& 
     {
         std::unique_lock lock(mutex_);
         readEnded_.wait(lock, [&] { return !reading_.contains(key); });
-        if (auto known = find(key, load.name)) return *std::move(known);
+        if (auto known = findCachedField(key, load.name)) return *std::move(known);
         reading_.insert(key);
     }
     struct ReadGuard {

@@ -109,7 +109,7 @@ class DataFolder {
     Result<FieldCacheFiles::FilePtr> makeCacheFile(std::size_t bytes);
     bool evictUnusedField(bool onDisk);
     Result<session::ObjectWithWarnings> putInCache(std::string key, session::ObjectWithWarnings loaded, bool onDisk);
-    std::optional<session::ObjectWithWarnings> find(const std::string& key, const std::string& name);
+    std::optional<session::ObjectWithWarnings> findCachedField(const std::string& key, const std::string& name);
 
     const std::filesystem::path folder_;              // empty if there is none on a disk
     const std::unique_ptr<const ObjectStore> store_;  // null without an object store

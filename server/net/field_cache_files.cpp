@@ -15,7 +15,7 @@ namespace {
 
 /// Sets the size of an open file, and reserves its blocks on the disk if the file system can do so. Returns 0 on
 /// success, else an error number (errno).
-int allocate(int file, std::size_t bytes) {
+int allocateFileSpace(int file, std::size_t bytes) {
     const auto size = static_cast<off_t>(bytes);
     if (fallocate(file, 0, 0, size) == 0) return 0;
     if (errno != EOPNOTSUPP && errno != ENOSYS) return errno;
@@ -47,7 +47,7 @@ Result<FieldCacheFiles::FilePtr> FieldCacheFiles::allocateFile(std::size_t bytes
         bytes_ -= bytes;
     };
     const FilePtr file(new fields::FileHandle(openUnnamedFile(folder_)), close);
-    const int fault = file->descriptor() < 0 ? errno : allocate(file->descriptor(), bytes);
+    const int fault = file->descriptor() < 0 ? errno : allocateFileSpace(file->descriptor(), bytes);
     if (fault == 0) return file;
     const std::string why = std::generic_category().message(fault);
     if (fault == ENOSPC || fault == EDQUOT)

@@ -68,7 +68,7 @@ int onProgress(void* context, curl_off_t /*total*/, curl_off_t /*now*/, curl_off
     return static_cast<const CurlTransfer*>(context)->stop.stop_requested() ? 1 : 0;
 }
 
-bool isPathOfNames(std::string_view path) {
+bool isValidObjectPath(std::string_view path) {
     if (path.size() > kMaxKey) return false;
     for (std::size_t begin = 0; begin <= path.size();) {
         const std::size_t end = std::min(path.find('/', begin), path.size());
@@ -210,7 +210,7 @@ ObjectStore::CurlHandle ObjectStore::takeHandle() const {
 
 Result<std::optional<std::string>> ObjectStore::get(const std::string& path, const FilePart& part,
                                                     Clock::time_point until, const std::stop_token& stop) const {
-    if (!isPathOfNames(path)) return std::optional<std::string>();
+    if (!isValidObjectPath(path)) return std::optional<std::string>();
     if (part.size == 0) return std::optional(std::string());
     const bool isPart = !part.isWhole();
     const std::string url = address_ + text::percentEncoded(path, "/");

@@ -57,7 +57,7 @@ struct ServerOptions {
     std::string spool;                              ///< folder for unread exports; empty: the system's temporary folder
     int maxRequestsPerSecond = 2000;                ///< maximum messages per second from one connection
     parallel::FairQueue::Limits jobs;               ///< maximum numbers of waiting jobs in each pool of workers
-    pipeline::FrameLimits frame;                    ///< limits on the size of pictures
+    pipeline::PictureSizeLimits frame;              ///< limits on the size of pictures
     pipeline::PictureWorkLimits picture;            ///< limits on the time and memory that a picture takes
     exports::ExportLimits file;                     ///< limits on exported files
     session::Limits session;                        ///< limits of each session

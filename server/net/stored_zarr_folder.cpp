@@ -29,10 +29,10 @@ Result<std::shared_ptr<const ObjectStoreZarrFolder>> ObjectStoreZarrFolder::open
     return std::shared_ptr<const ObjectStoreZarrFolder>(folder);
 }
 
-Result<std::optional<fields::FoundFile>> ObjectStoreZarrFolder::find(const std::string& path,
-                                                                     const fields::FilePart& part,
-                                                                     std::chrono::steady_clock::time_point until,
-                                                                     const std::stop_token& stop) const {
+Result<std::optional<fields::FoundFile>> ObjectStoreZarrFolder::findFile(const std::string& path,
+                                                                         const fields::FilePart& part,
+                                                                         std::chrono::steady_clock::time_point until,
+                                                                         const std::stop_token& stop) const {
     const auto known = part.isWhole() ? metadata_.find(path) : metadata_.end();
     auto bytes = known == metadata_.end() ? store_.get(prefix_ + path, part, until, stop)
                                           : Result<std::optional<std::string>>(known->second);

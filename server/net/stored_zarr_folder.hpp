@@ -22,9 +22,9 @@ class ObjectStoreZarrFolder final : public fields::FolderFileProvider {
     /// those of ObjectStore::get(). `store` must outlive the folder.
     static Result<std::shared_ptr<const ObjectStoreZarrFolder>> open(const ObjectStore& store, const std::string& name);
 
-    Result<std::optional<fields::FoundFile>> find(const std::string& path, const fields::FilePart& part,
-                                                  std::chrono::steady_clock::time_point until,
-                                                  const std::stop_token& stop) const override;
+    Result<std::optional<fields::FoundFile>> findFile(const std::string& path, const fields::FilePart& part,
+                                                      std::chrono::steady_clock::time_point until,
+                                                      const std::stop_token& stop) const override;
     /// Returns a text that identifies the version of the folder. It depends only on the metadata that open() has read.
     std::string version() const override;
 

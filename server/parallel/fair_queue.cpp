@@ -42,7 +42,7 @@ Seconds FairQueue::correctedCost(const JobQueue& jobQueue, Seconds estimate) con
 
 /// Returns `cost` divided by the weight of `jobClass`: the cost of a job for `scheduler_`. The flows of `scheduler_`
 /// are the two classes (all short jobs, and all long jobs). The weight of a class is the number of its active clients.
-Seconds FairQueue::costChargedToClass(JobClass jobClass, Seconds cost) const {
+Seconds FairQueue::costChargedToClass(JobCostClass jobClass, Seconds cost) const {
     return cost / std::max<std::size_t>(1, classes_[jobClass].clients.activeFlows());
 }
 
@@ -53,7 +53,7 @@ bool FairQueue::push(Job job, const JobQueuePtr& jobQueue, Seconds estimate, Clo
     ++client.waiting_;
     estimate = std::max(kMinCost, estimate);
     const Seconds cost = correctedCost(*jobQueue, estimate);
-    const JobClass jobClass =
+    const JobCostClass jobClass =
         cost > kLongJobThreshold * std::clamp(correction_.correctionFactor(1), 1.0, 2.0) ? long_job : short_job;
     jobQueue->jobs_.push_back({std::move(job), estimate, cost, jobClass});
     updateRecentShortQueues(jobQueue, jobClass, now);
@@ -61,10 +61,10 @@ bool FairQueue::push(Job job, const JobQueuePtr& jobQueue, Seconds estimate, Clo
     return true;
 }
 
-std::optional<FairQueue::DueJob> FairQueue::popStartableJob(Clock::time_point now) {
+std::optional<FairQueue::StartableJob> FairQueue::popStartableJob(Clock::time_point now) {
     if (scheduler_.empty()) return std::nullopt;
-    const JobClass jobClass = longJobsMustWait(now) ? short_job : scheduler_.nextFlow();
-    JobClassScheduler& ofClass = classes_[jobClass];
+    const JobCostClass jobClass = longJobsMustWait(now) ? short_job : scheduler_.nextFlow();
+    JobCostClassScheduler& ofClass = classes_[jobClass];
     if (ofClass.clients.empty()) return std::nullopt;
     const ClientFlowPtr client = ofClass.clients.nextFlow();
     const JobQueuePtr jobQueue = client->jobQueues_[jobClass].nextFlow();
@@ -79,13 +79,13 @@ std::optional<FairQueue::DueJob> FairQueue::popStartableJob(Clock::time_point no
     client->jobQueues_[jobClass].remove(jobQueue->states_[jobClass]);
     updateClientEntry(client, jobClass);
     if (!jobQueue->jobs_.empty()) updateJobQueueEntry(jobQueue);
-    return DueJob{std::move(first.job), jobQueue, first.estimate, first.cost, jobClass};
+    return StartableJob{std::move(first.job), jobQueue, first.estimate, first.cost, jobClass};
 }
 
-void FairQueue::recordJobEnd(const DueJob& started, Seconds took) {
+void FairQueue::recordJobEnd(const StartableJob& started, Seconds took) {
     JobQueue& jobQueue = *started.jobQueue;
     ClientFlow& client = *jobQueue.client_;
-    const JobClass jobClass = started.jobClass;
+    const JobCostClass jobClass = started.jobClass;
     if (jobClass == long_job) --longRunning_;
     for (EstimateCorrection* each : {&jobQueue.correction_, &client.correction_, &correction_})
         each->addMeasurement(started.estimate, std::min(took, kMaxOverrun * started.cost));
@@ -100,7 +100,7 @@ void FairQueue::recordJobEnd(const DueJob& started, Seconds took) {
     }
 }
 
-Seconds FairQueue::nextJobCost(const ClientFlow& client, JobClass jobClass) {
+Seconds FairQueue::nextJobCost(const ClientFlow& client, JobCostClass jobClass) {
     return client.jobQueues_[jobClass].nextFlow()->jobs_.front().cost;
 }
 
@@ -118,8 +118,8 @@ void FairQueue::updateJobQueueEntry(const JobQueuePtr& jobQueue) {
 /// Removes the client from them if the client has no waiting job of this class. Then updates the position of the class
 /// in `scheduler_` in the same way. Must be called when the client's next job of this class, or the client's virtual
 /// finish time, has changed.
-void FairQueue::updateClientEntry(const ClientFlowPtr& client, JobClass jobClass) {
-    JobClassScheduler& ofClass = classes_[jobClass];
+void FairQueue::updateClientEntry(const ClientFlowPtr& client, JobCostClass jobClass) {
+    JobCostClassScheduler& ofClass = classes_[jobClass];
     if (client->jobQueues_[jobClass].empty()) {
         ofClass.clients.remove(client->states_[jobClass]);
     } else {
@@ -137,7 +137,7 @@ void FairQueue::updateClientEntry(const ClientFlowPtr& client, JobClass jobClass
 /// end of `recentShortJobQueues_`, unless a long job was queued in it within the last kActivePeriod. While
 /// `recentShortJobQueues_` is not empty, no long job starts on a reserved thread. So these threads stay free for the
 /// short jobs of the job queues in `recentShortJobQueues_`.
-void FairQueue::updateRecentShortQueues(const JobQueuePtr& jobQueue, JobClass jobClass, Clock::time_point now) {
+void FairQueue::updateRecentShortQueues(const JobQueuePtr& jobQueue, JobCostClass jobClass, Clock::time_point now) {
     pruneRecentShortJobQueues(now);
     if (jobClass == long_job) jobQueue->lastLong_ = now;
     if (jobQueue->lastLong_ && now - *jobQueue->lastLong_ <= kActivePeriod) return;
@@ -173,7 +173,7 @@ bool FairQueue::hasStartableJob(Clock::time_point now) {
 std::deque<FairQueue::Job> FairQueue::clear() {
     std::deque<Job> dropped;
     while (!scheduler_.empty()) {
-        const JobClass jobClass = scheduler_.nextFlow();
+        const JobCostClass jobClass = scheduler_.nextFlow();
         const ClientFlowPtr client = classes_[jobClass].clients.nextFlow();
         const JobQueuePtr jobQueue = client->jobQueues_[jobClass].nextFlow();
         client->waiting_ -= jobQueue->jobs_.size();

@@ -127,9 +127,9 @@ class FairQueue {
     class ClientFlow;
     class JobQueue;
     /// The class of a job, which its cost determines (see kLongJobThreshold).
-    enum JobClass : std::size_t { short_job, long_job };
+    enum JobCostClass : std::size_t { short_job, long_job };
     template <typename T>
-    using PerJobClass = std::array<T, 2>;  // an array with one element for each JobClass
+    using PerJobCostClass = std::array<T, 2>;  // an array with one element for each JobCostClass
     using ClientFlowPtr = std::shared_ptr<ClientFlow>;
     using JobQueuePtr = std::shared_ptr<JobQueue>;
 
@@ -149,11 +149,11 @@ class FairQueue {
     static constexpr std::chrono::seconds kActivePeriod{10};
 
     /// A job that popStartableJob() has returned. The caller must run the job at once, and then call recordJobEnd().
-    struct DueJob {
+    struct StartableJob {
         Job job;
         JobQueuePtr jobQueue;
         Seconds estimate, cost;  ///< `estimate` was given to push(); `cost` is the corrected estimate; both in seconds
-        JobClass jobClass;
+        JobCostClass jobClass;
     };
 
     /// `threads` is the number of threads that run the jobs, at least 1.
@@ -169,10 +169,10 @@ class FairQueue {
     /// Removes and returns the job to start now. Returns an empty optional in two cases: if no job is waiting, or if
     /// all waiting jobs are long and must wait longer. Long jobs must wait if all threads that are not reserved run
     /// long jobs, and the next long job may not start on a reserved thread.
-    std::optional<DueJob> popStartableJob(Clock::time_point now);
+    std::optional<StartableJob> popStartableJob(Clock::time_point now);
 
     /// Records that the job `started` has ended. `took` is the measured running time.
-    void recordJobEnd(const DueJob& started, Seconds took);
+    void recordJobEnd(const StartableJob& started, Seconds took);
 
     /// Removes and returns all waiting jobs, so that the caller can choose when to destroy them.
     std::deque<Job> clear();
@@ -198,33 +198,33 @@ class FairQueue {
     struct QueuedJob {
         Job job;
         Seconds estimate, cost;  // `estimate` was given to push(); `cost` is the corrected estimate; both in seconds
-        JobClass jobClass;
+        JobCostClass jobClass;
     };
 
     // The scheduling data of one class: of all short jobs, or of all long jobs. `clients` schedules the clients of the
     // class. `scheduler_` chooses between the two classes; to it, each class is a flow with the state `state`.
-    struct JobClassScheduler {
+    struct JobCostClassScheduler {
         FairScheduler<ClientFlowPtr> clients;
-        FairScheduler<JobClass>::FlowState state;
+        FairScheduler<JobCostClass>::FlowState state;
     };
 
     using RecentJobQueues = std::list<std::pair<Clock::time_point, std::weak_ptr<JobQueue>>>;
 
     Seconds correctedCost(const JobQueue& jobQueue, Seconds estimate) const;
-    Seconds costChargedToClass(JobClass jobClass, Seconds cost) const;
-    static Seconds nextJobCost(const ClientFlow& client, JobClass jobClass);
+    Seconds costChargedToClass(JobCostClass jobClass, Seconds cost) const;
+    static Seconds nextJobCost(const ClientFlow& client, JobCostClass jobClass);
     void updateJobQueueEntry(const JobQueuePtr& jobQueue);
-    void updateClientEntry(const ClientFlowPtr& client, JobClass jobClass);
-    void updateRecentShortQueues(const JobQueuePtr& jobQueue, JobClass jobClass, Clock::time_point now);
+    void updateClientEntry(const ClientFlowPtr& client, JobCostClass jobClass);
+    void updateRecentShortQueues(const JobQueuePtr& jobQueue, JobCostClass jobClass, Clock::time_point now);
     bool longJobsMustWait(Clock::time_point now);
     void pruneRecentShortJobQueues(Clock::time_point now);
 
     const std::size_t maxLongRunning_;  // the number of threads that are not reserved (see FairQueue)
     const Limits limits_;
     std::size_t waiting_ = 0, longRunning_ = 0;  // the numbers of waiting jobs and of running long jobs
-    PerJobClass<JobClassScheduler> classes_;
-    FairScheduler<JobClass> scheduler_;  // decides which of the two classes is served next
-    EstimateCorrection correction_;      // learned from the jobs of all clients
+    PerJobCostClass<JobCostClassScheduler> classes_;
+    FairScheduler<JobCostClass> scheduler_;  // decides which of the two classes is served next
+    EstimateCorrection correction_;          // learned from the jobs of all clients
     RecentJobQueues
         recentShortJobQueues_;  // active job queues, each with the time of its last short job; earliest first
 };
@@ -233,9 +233,9 @@ class FairQueue {
 /// the same FairQueue.
 class FairQueue::ClientFlow {
     friend FairQueue;
-    PerJobClass<FairScheduler<ClientFlowPtr>::FlowState>
-        states_;  // per class: the client's state as a flow in JobClassScheduler::clients
-    PerJobClass<FairScheduler<JobQueuePtr>> jobQueues_;  // per class: the scheduler of the client's job queues
+    PerJobCostClass<FairScheduler<ClientFlowPtr>::FlowState>
+        states_;  // per class: the client's state as a flow in JobCostClassScheduler::clients
+    PerJobCostClass<FairScheduler<JobQueuePtr>> jobQueues_;  // per class: the scheduler of the client's job queues
     std::size_t waiting_ = 0;
     EstimateCorrection correction_;
 };
@@ -248,7 +248,7 @@ class FairQueue::JobQueue {
   private:
     friend FairQueue;
     const ClientFlowPtr client_;
-    PerJobClass<FairScheduler<JobQueuePtr>::FlowState> states_;
+    PerJobCostClass<FairScheduler<JobQueuePtr>::FlowState> states_;
     std::deque<QueuedJob> jobs_;
     EstimateCorrection correction_;
     std::optional<RecentJobQueues::iterator>

@@ -71,7 +71,7 @@ double fogSeconds(const scene::PictureRequest& picture, double slices, double cu
 
 /// Returns the estimated time, in seconds, to slice an object, without the surfaces of a field, and to compose the
 /// scene of the slices.
-double boxSeconds(const scene::PictureRequest& picture) {
+double sliceAndComposeSeconds(const scene::PictureRequest& picture) {
     const double n = totalElementCount(picture.object);
     return 1e-4 + 1e-7 * n + 1e-7 * picture.planes.count * estimateElementsCut(n);
 }
@@ -117,11 +117,11 @@ EstimatedSeconds geometryCost(const scene::PictureRequest& picture) {
     const double cubes = slicing::cubesAcrossDiameter(quality);
     const double field = surfaceSeconds(picture, picture.planes.count, cubes, quality) +
                          fogSeconds(picture, picture.planes.count, 2 * cubes, 0, quality);
-    return EstimatedSeconds(boxSeconds(picture) + field);
+    return EstimatedSeconds(sliceAndComposeSeconds(picture) + field);
 }
 
 EstimatedSeconds pointDescriptionCost(const scene::PictureRequest& picture) {
-    return EstimatedSeconds(boxSeconds(picture) + rayCastingSeconds(picture));
+    return EstimatedSeconds(sliceAndComposeSeconds(picture) + rayCastingSeconds(picture));
 }
 
 EstimatedSeconds sampleCost(const slicing::Object& object) {

@@ -208,7 +208,7 @@ Result<exports::ExportedFile> exportFile(const scene::PictureRequest& picture, c
     return std::get<exports::ExportedFile>(std::move(made));
 }
 
-std::string fileName(const slicing::Object& object, const exports::ExportRequest& request) {
+std::string exportFileName(const slicing::Object& object, const exports::ExportRequest& request) {
     std::string name;
     for (const char c : slicing::infoOf(object).name) {
         const bool plain = text::isDigit(c) || text::isLetter(c) || c == '-';

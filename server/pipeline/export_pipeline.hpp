@@ -28,6 +28,6 @@ Result<exports::ExportedFile> exportFile(const scene::PictureRequest& picture, c
 
 /// Returns a suggested file name, such as "24-cell.stl". It is the name of the object and the name of the format. Each
 /// byte of the object's name that is not an ASCII letter, a digit or - is replaced by _.
-std::string fileName(const slicing::Object& object, const exports::ExportRequest& request);
+std::string exportFileName(const slicing::Object& object, const exports::ExportRequest& request);
 
 }  // namespace oval4d::pipeline

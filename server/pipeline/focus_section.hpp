@@ -13,7 +13,7 @@ namespace oval4d::pipeline {
 class FocusSectionNamer {
   public:
     /// Cuts the focus slice (the middle one) of the picture's object, and returns its two names (see
-    /// slicing::SectionNamePair). A name is empty if the section has no such name. The names are valid until the
+    /// slicing::SliceAndHullNames). A name is empty if the section has no such name. The names are valid until the
     /// process ends. Takes at most about as long as one slice of a picture.
     slicing::NamedSection name(const scene::PictureRequest& picture);
     /// Returns the names of the focus slice (the middle one) without cutting it. `slices` are the slices of this

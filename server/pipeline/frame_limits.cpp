@@ -6,7 +6,7 @@
 
 namespace oval4d::pipeline {
 
-scene::Viewport defaultViewport(const FrameLimits& limits) {
+scene::Viewport defaultViewport(const PictureSizeLimits& limits) {
     const scene::Viewport usual;
     const int width = std::max(limits.minSide, std::min(usual.width, limits.maxWidth));
     const int height = std::max(limits.minSide, std::min(usual.height, limits.maxHeight));
@@ -24,7 +24,7 @@ scene::Viewport defaultViewport(const FrameLimits& limits) {
     return out;
 }
 
-Result<scene::Viewport> checkViewport(scene::Viewport viewport, const FrameLimits& limits) {
+Result<scene::Viewport> checkViewport(scene::Viewport viewport, const PictureSizeLimits& limits) {
     const auto [width, height] = viewport;
     const auto complaint = [&](const std::string& allowed) {
         return Error{ErrorCode::out_of_range, "a picture of " + std::to_string(width) + "×" + std::to_string(height) +

@@ -66,7 +66,7 @@ std::string Pipeline::describePoint(const scene::PictureRequest& picture, std::u
                                     std::optional<double> id, glm::dvec2 point) {
     const parallel::ExclusiveUseAssertion::ScopedUse use(inUse_);
     workspace_.composer.limitOcclusion(limits_.occlusionSteps);
-    workspace_.composer.compose(picture.object, picture.orientation, sliceToPointAt(picture), picture.focus,
+    workspace_.composer.compose(picture.object, picture.orientation, slicesForPointing(picture), picture.focus,
                                 picture.look, picture.viewport, workspace_.scene, picture.quality,
                                 scene::ScenePurpose::pointing);
     const scene::Scene& composed = workspace_.scene;
@@ -83,7 +83,7 @@ std::string Pipeline::describePoint(const scene::PictureRequest& picture, std::u
     return wire::pickMessage(at, composed, picture.object, picture.source, revision, id);
 }
 
-const slicing::SliceSet& Pipeline::sliceToPointAt(const scene::PictureRequest& picture) {
+const slicing::SliceSet& Pipeline::slicesForPointing(const scene::PictureRequest& picture) {
     auto& [input, slices] = workspace_.toPointAt;
     SlicesForPointing::SlicingInput wanted{slicing::infoOf(picture.object).serial, picture.orientation, picture.planes};
     if (input != wanted) {

@@ -53,7 +53,7 @@ class Pipeline {
 
     /// Returns the section in the focus slice (the middle one) with its two names, for the `state` message: the name of
     /// the slice, such as "icosahedron", and the name of the convex hull of the object's vertices in the slice (see
-    /// slicing::SectionNamePair). A name is empty if the section has no such name. `slices` is the result of slice()
+    /// slicing::SliceAndHullNames). A name is empty if the section has no such name. `slices` is the result of slice()
     /// for this picture; if it is null, the focus slice is cut. If this section was named last, returns the same names
     /// without finding them again.
     slicing::NamedSection nameFocusSection(const scene::PictureRequest& picture,
@@ -125,7 +125,7 @@ class Pipeline {
         image::PngEncoder encoder;
     };
 
-    const slicing::SliceSet& sliceToPointAt(const scene::PictureRequest& picture);
+    const slicing::SliceSet& slicesForPointing(const scene::PictureRequest& picture);
 
     const std::unique_ptr<raster::Rasterizer> rasterizer_;
     parallel::ForkJoin* const forkJoin_;

@@ -26,20 +26,20 @@ bool areAllEqual(const std::vector<double>& lengths) {
 }
 
 // Counts of the 2-faces and the vertices of one cell.
-struct ElementTally {
+struct CellFaceAndDegreeCounts {
     std::map<std::size_t, std::uint32_t> faces;      // number of sides → number of 2-faces with this number of sides
     std::map<std::uint32_t, std::uint32_t> degrees;  // vertex → number of edges of the cell at this vertex
     // number of edges → number of vertices with this number of edges
     std::map<std::uint32_t, std::uint32_t> verticesOfDegree;
 
-    ElementTally(const Polytope& p, std::uint32_t cell) {
+    CellFaceAndDegreeCounts(const Polytope& p, std::uint32_t cell) {
         for (const std::uint32_t f : p.cells[cell]) {
             ++faces[p.faces[f].size()];
             for (const std::uint32_t v : p.faces[f]) ++degrees[v];
         }
         for (const auto& [vertex, degree] : degrees) ++verticesOfDegree[degree];
     }
-    std::uint32_t facesWithSides(std::size_t sides) const {
+    std::uint32_t countFacesWithSides(std::size_t sides) const {
         const auto found = faces.find(sides);
         return found == faces.end() ? 0 : found->second;
     }
@@ -54,10 +54,10 @@ struct ElementTally {
 };
 
 // The lengths of the sides and diagonals of a quadrilateral.
-struct Quadrilateral {
+struct QuadrilateralLengths {
     double sides[4], diagonals[2];
 
-    Quadrilateral(const Polytope& p, std::span<const std::uint32_t> loop) {
+    QuadrilateralLengths(const Polytope& p, std::span<const std::uint32_t> loop) {
         const auto distance = [&](std::size_t i, std::size_t j) {
             return glm::distance(p.vertices[loop[i % 4]], p.vertices[loop[j % 4]]);
         };
@@ -74,14 +74,15 @@ struct Quadrilateral {
 
 std::string adjectiveOfBase(const Polytope& p, std::span<const std::uint32_t> loop) {
     if (loop.size() != 4) return adjectiveOf({static_cast<int>(loop.size()), 1});
-    const Quadrilateral base(p, loop);
+    const QuadrilateralLengths base(p, loop);
     if (base.isRhombus()) return base.isRectangle() ? "square" : "rhombic";
     return base.isRectangle() ? "rectangular" : "quadrilateral";
 }
 
-std::string pyramidName(const Polytope& p, std::uint32_t cell, const ElementTally& tally) {
+std::string pyramidName(const Polytope& p, std::uint32_t cell, const CellFaceAndDegreeCounts& tally) {
     const std::size_t n = p.cells[cell].size() - 1;
-    if (n < 4 || tally.degrees.size() != n + 1 || tally.facesWithSides(3) != n || tally.facesWithSides(n) != 1)
+    if (n < 4 || tally.degrees.size() != n + 1 || tally.countFacesWithSides(3) != n ||
+        tally.countFacesWithSides(n) != 1)
         return {};
     for (const std::uint32_t f : p.cells[cell]) {
         if (p.faces[f].size() == n) return adjectiveOfBase(p, p.faces[f]) + " pyramid";
@@ -95,7 +96,7 @@ std::string prismName(const Polytope& p, std::uint32_t cell) {
     std::size_t rectangles = 0;
     std::vector<std::uint32_t> others;
     for (const std::uint32_t f : p.cells[cell]) {
-        const bool rectangle = p.faces[f].size() == 4 && Quadrilateral(p, p.faces[f]).isRectangle();
+        const bool rectangle = p.faces[f].size() == 4 && QuadrilateralLengths(p, p.faces[f]).isRectangle();
         if (rectangle)
             ++rectangles;
         else
@@ -110,7 +111,7 @@ std::string prismName(const Polytope& p, std::uint32_t cell) {
 }
 
 // Returns the distances of the cell's vertices from their mean.
-std::vector<double> radiiOf(const Polytope& p, const ElementTally& tally) {
+std::vector<double> radiiOf(const Polytope& p, const CellFaceAndDegreeCounts& tally) {
     glm::dvec4 middle(0);
     for (const auto& [v, degree] : tally.degrees) middle += p.vertices[v] / static_cast<double>(tally.degrees.size());
     std::vector<double> radii;
@@ -136,7 +137,7 @@ bool mayBeAntiprismBases(const Polytope& p, std::uint32_t cell, std::uint32_t ba
 }
 
 // Returns the name of the cell if it is a right antiprism over a regular polygon, else an empty string.
-std::string antiprismName(const Polytope& p, std::uint32_t cell, const ElementTally& tally) {
+std::string antiprismName(const Polytope& p, std::uint32_t cell, const CellFaceAndDegreeCounts& tally) {
     const auto n = static_cast<std::uint32_t>(p.cells[cell].size() / 2 - 1);
     std::map<std::size_t, std::uint32_t> wanted;
     wanted[n] += 2;
@@ -161,15 +162,16 @@ std::string antiprismName(const Polytope& p, std::uint32_t cell, const ElementTa
 // Returns the name of a cell if it is a bipyramid or a trapezohedron, else an empty string. `faces` is the number of
 // 2-faces of the cell. Only this number and `tally` decide, not the positions of the vertices. Bipyramids and
 // trapezohedra have two apexes; their other vertices lie around the axis through the apexes.
-std::string twoApexName(std::uint32_t faces, const ElementTally& tally) {
+std::string twoApexName(std::uint32_t faces, const CellFaceAndDegreeCounts& tally) {
     const std::uint32_t n = faces / 2;
     const auto vertices = static_cast<std::uint32_t>(tally.degrees.size());
     const std::string adjective = adjectiveOf({static_cast<int>(n), 1});
     // An irregular octahedron (n = 4) is not called a bipyramid, nor a deformed cube (n = 3) a trapezohedron,
     // because any two opposite vertices could be the apexes.
-    if (n != 4 && vertices == n + 2 && tally.facesWithSides(3) == 2 * n && tally.hasVertexDegrees(2, n, n, 4))
+    if (n != 4 && vertices == n + 2 && tally.countFacesWithSides(3) == 2 * n && tally.hasVertexDegrees(2, n, n, 4))
         return adjective + " bipyramid";
-    if (n > 3 && vertices == 2 * n + 2 && tally.facesWithSides(4) == 2 * n && tally.hasVertexDegrees(2, n, 2 * n, 3))
+    if (n > 3 && vertices == 2 * n + 2 && tally.countFacesWithSides(4) == 2 * n &&
+        tally.hasVertexDegrees(2, n, 2 * n, 3))
         return adjective + " trapezohedron";
     return {};
 }
@@ -177,7 +179,7 @@ std::string twoApexName(std::uint32_t faces, const ElementTally& tally) {
 // Returns whether the cell has the shape of the solid: whether the distances of the cell's vertices from their mean
 // have the same ratios as the distances of the solid's vertices from its center. The caller must have compared the
 // numbers of faces and vertices; these numbers alone do not identify a solid.
-bool hasRadiiOf(const Solid& solid, const Polytope& p, const ElementTally& tally) {
+bool hasRadiiOf(const SolidDescription& solid, const Polytope& p, const CellFaceAndDegreeCounts& tally) {
     const SolidMesh mesh = meshOf(solid);
     std::vector<double> known, own = radiiOf(p, tally);
     for (const glm::dvec3& v : mesh.vertices) known.push_back(glm::length(v));
@@ -193,7 +195,7 @@ bool isPlatonic(const NamedPolyhedron& polyhedron) {
 }
 
 struct CatalanSolid {
-    Solid solid;
+    SolidDescription solid;
     SolidCounts counts;
 };
 
@@ -201,7 +203,7 @@ const std::vector<CatalanSolid>& catalanSolids() {
     static const std::vector<CatalanSolid> kSolids = [] {
         std::vector<CatalanSolid> solids;
         for (const NamedPolyhedron& base : namedPolyhedra()) {
-            const Solid solid{&base, 0, false, true};
+            const SolidDescription solid{&base, 0, false, true};
             if (isConvex(base) && !isPlatonic(base)) solids.push_back({solid, countsOf(solid)});
         }
         return solids;
@@ -209,7 +211,7 @@ const std::vector<CatalanSolid>& catalanSolids() {
     return kSolids;
 }
 
-std::string catalanName(const Polytope& p, const ElementTally& tally, std::uint32_t faces) {
+std::string catalanName(const Polytope& p, const CellFaceAndDegreeCounts& tally, std::uint32_t faces) {
     if (tally.faces.size() != 1) return {};
     for (const auto& [solid, counts] : catalanSolids()) {
         if (counts.faces == faces && counts.vertices == tally.degrees.size() && hasRadiiOf(solid, p, tally))
@@ -223,7 +225,7 @@ std::string catalanName(const Polytope& p, const ElementTally& tally, std::uint3
 std::string nameOfIrregularCell(const Polytope& p, std::uint32_t cell) {
     const auto faces = static_cast<std::uint32_t>(p.cells[cell].size());
     if (!p.convexFaces || faces < 5) return {};
-    const ElementTally tally(p, cell);
+    const CellFaceAndDegreeCounts tally(p, cell);
     std::string name = pyramidName(p, cell, tally);
     if (name.empty()) name = prismName(p, cell);
     if (name.empty()) name = antiprismName(p, cell, tally);

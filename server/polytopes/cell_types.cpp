@@ -97,7 +97,7 @@ RegularPolygon regularPolygonOf(const Polytope& p, std::span<const std::uint32_t
 
 // Assigns consecutive numbers to distinct keys, in the order of their first appearance.
 template <typename Key>
-class ConsecutiveNumbers {
+class DistinctKeyNumbering {
   public:
     std::uint32_t numberOf(const Key& key) {
         return known_.emplace(key, static_cast<std::uint32_t>(known_.size())).first->second;
@@ -114,8 +114,8 @@ std::vector<std::uint32_t> cellTypesByShape(const Polytope& p) {
     // `polygons` numbers the combinations of a cell's vertex count and the side counts of its 2-faces; `seen` lists
     // the types found for each of these numbers. `sizes` numbers the combinations of a vertex count and a 2-face
     // count, for the coarser classification (see kMaxCellTypes).
-    ConsecutiveNumbers<std::vector<std::uint32_t>> polygons;
-    ConsecutiveNumbers<std::array<std::uint32_t, 2>> sizes;
+    DistinctKeyNumbering<std::vector<std::uint32_t>> polygons;
+    DistinctKeyNumbering<std::array<std::uint32_t, 2>> sizes;
     struct KnownCellType {
         std::uint32_t type;
         std::array<double, 6> values;
@@ -149,7 +149,7 @@ std::vector<std::uint32_t> cellTypesByShape(const Polytope& p) {
 
 std::vector<std::uint32_t> cellTypesByNeighbors(const Polytope& p, std::vector<std::uint32_t> types) {
     for (std::size_t count = 0;;) {
-        ConsecutiveNumbers<std::vector<std::uint32_t>> surroundings;
+        DistinctKeyNumbering<std::vector<std::uint32_t>> surroundings;
         std::vector<std::uint32_t> finer(types.size());
         for (std::uint32_t c = 0; c < p.cells.size(); ++c) {
             std::vector<std::uint32_t> key{types[c]};

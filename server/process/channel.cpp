@@ -45,7 +45,7 @@ bool waitFor(int socket, short event, const WaitLimit& limit) {
 /// call would block. On success, sets `moved` to the number of bytes that were sent or received. Otherwise returns why
 /// it stopped (see TransferResult).
 template <typename Call>
-TransferResult transferSome(int socket, short event, const WaitLimit& limit, std::size_t& moved, Call call) {
+TransferResult transferWhenReady(int socket, short event, const WaitLimit& limit, std::size_t& moved, Call call) {
     for (;;) {
         const ssize_t result = call();
         if (result > 0) {
@@ -81,7 +81,7 @@ TransferResult Channel::send(MessageType type, std::string_view body, int file, 
     const auto call = [&] { return sendmsg(socket_, &message, MSG_NOSIGNAL | MSG_DONTWAIT); };
     for (std::size_t left = sizeof header + body.size(); left > 0;) {
         std::size_t sent = 0;
-        const TransferResult transfer = transferSome(socket_, POLLOUT, limit, sent, call);
+        const TransferResult transfer = transferWhenReady(socket_, POLLOUT, limit, sent, call);
         if (transfer != TransferResult::complete) return transfer;
         left -= sent;
         message.msg_control = nullptr;
@@ -97,8 +97,8 @@ TransferResult Channel::send(MessageType type, std::string_view body, int file, 
 
 TransferResult Channel::receive(MessageType& type, std::string& body, int* file, const WaitLimit& limit,
                                 std::size_t maxBytes) const {
-    // Check the limit here, too: transferSome() checks the limit only when it must wait, and so never checks it if the
-    // sender is fast.
+    // Check the limit here, too: transferWhenReady() checks the limit only when it must wait, and so never checks it if
+    // the sender is fast.
     if (WaitLimit::Clock::now() > limit.until) return TransferResult::timed_out;
     if (file != nullptr) *file = kNoFile;
     const auto read = [&](void* to, std::size_t size) {
@@ -114,7 +114,7 @@ TransferResult Channel::receive(MessageType& type, std::string& body, int* file,
             }
             const auto call = [&] { return recvmsg(socket_, &message, MSG_DONTWAIT | MSG_CMSG_CLOEXEC); };
             std::size_t got = 0;
-            const TransferResult transfer = transferSome(socket_, POLLIN, limit, got, call);
+            const TransferResult transfer = transferWhenReady(socket_, POLLIN, limit, got, call);
             if (transfer != TransferResult::complete) return transfer;
             if (const cmsghdr* tag = CMSG_FIRSTHDR(&message); tag != nullptr && tag->cmsg_type == SCM_RIGHTS)
                 std::memcpy(file, CMSG_DATA(tag), sizeof *file);
@@ -132,6 +132,6 @@ TransferResult Channel::receive(MessageType& type, std::string& body, int* file,
     return read(body.data(), body.size());
 }
 
-bool Channel::wait(const WaitLimit& limit) const { return waitFor(socket_, POLLIN, limit); }
+bool Channel::waitForMessage(const WaitLimit& limit) const { return waitFor(socket_, POLLIN, limit); }
 
 }  // namespace oval4d::process

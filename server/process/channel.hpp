@@ -74,7 +74,7 @@ class Channel {
                            std::size_t maxBytes = kNoLimit) const;
 
     /// Waits until a message can be received, or the other end is closed. Returns false if `limit` is reached first.
-    bool wait(const WaitLimit& limit) const;
+    bool waitForMessage(const WaitLimit& limit) const;
 
   private:
     int socket_;

@@ -3,7 +3,7 @@
 namespace oval4d::raster {
 
 void LocalRasterizer::warmUp() {
-    if (!renderer_) renderer_.emplace(render::fontFile(), render::ShapeBackend::fastest, forkJoin_);
+    if (!renderer_) renderer_.emplace(render::defaultFontPath(), render::ShapeBackend::fastest, forkJoin_);
 }
 
 std::span<const std::uint8_t> LocalRasterizer::draw(const scene::PictureRequest& picture, DrawTimes& times) {

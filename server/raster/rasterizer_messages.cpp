@@ -17,7 +17,7 @@ void archiveMembers(auto& picture, auto& archive) {
 
 }  // namespace
 
-void encodeRequest(const scene::PictureRequest& picture, const RasterizerLimits& limits, std::string& out) {
+void encodeDrawRequest(const scene::PictureRequest& picture, const RasterizerLimits& limits, std::string& out) {
     out.clear();
     serialization::ByteWriter archive(out);
     archive(slicing::infoOf(picture.source).serial), archive(slicing::infoOf(picture.object).serial);
@@ -26,7 +26,7 @@ void encodeRequest(const scene::PictureRequest& picture, const RasterizerLimits&
     archive(limits);
 }
 
-void decodeRequest(std::string_view bytes, DrawRequest& out) {
+void decodeDrawRequest(std::string_view bytes, DrawRequest& out) {
     serialization::ByteReader archive(bytes);
     glm::dquat left, right;
     archive(out.source), archive(out.object);

@@ -36,10 +36,10 @@ struct DrawRequest {
 };
 
 /// Encodes a request to draw `picture` within `limits`. Overwrites `out`.
-void encodeRequest(const scene::PictureRequest& picture, const RasterizerLimits& limits, std::string& out);
-/// Decodes a draw request from the bytes that encodeRequest() wrote. Overwrites the members of `out`, except the
+void encodeDrawRequest(const scene::PictureRequest& picture, const RasterizerLimits& limits, std::string& out);
+/// Decodes a draw request from the bytes that encodeDrawRequest() wrote. Overwrites the members of `out`, except the
 /// objects in `out.picture`, which are not sent. Throws std::runtime_error if bytes are missing or damaged, or if the
 /// orientation is not a rotation.
-void decodeRequest(std::string_view bytes, DrawRequest& out);
+void decodeDrawRequest(std::string_view bytes, DrawRequest& out);
 
 }  // namespace oval4d::raster

@@ -63,7 +63,7 @@ void RasterizerProcess::warmUp(const std::stop_token& stop) {
 
 std::span<const std::uint8_t> RasterizerProcess::draw(const scene::PictureRequest& picture, SharedPixels& pixels,
                                                       DrawTimes& times, const std::stop_token& stop) {
-    encodeRequest(picture, limits_, request_);
+    encodeDrawRequest(picture, limits_, request_);
     const auto drawn = pixels.resize(image::byteCount(picture.viewport.width, picture.viewport.height));
     process_.converseWithRetry(
         [&](const Channel& channel, const WaitLimit& limit) {

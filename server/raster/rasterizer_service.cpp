@@ -78,10 +78,10 @@ class RasterizerService {
         if (!ready) return;
         channel_.send(MessageType::ready);
         for (MessageType type{}; receiveNext(type);) {
-            if (type == MessageType::draw) decodeRequest(body_, request_);
+            if (type == MessageType::draw) decodeDrawRequest(body_, request_);
             // The object that refers to this file follows in a later message.
             if (type == MessageType::file_descriptor) continue;
-            if (type == MessageType::object && !tryOrReportFailure([this] { takeObject(); })) continue;
+            if (type == MessageType::object && !tryOrReportFailure([this] { cacheReceivedObject(); })) continue;
             if (const slicing::Object* object = recent_.find(request_)) {
                 request_.picture.object = *object;
                 tryOrReportFailure([this] { draw(); });
@@ -95,13 +95,13 @@ class RasterizerService {
     /// Waits for the next message and receives it. If no message comes for WorkerPool::kIdleDelay, frees memory and
     /// goes on waiting. Returns false when the connection is closed.
     bool receiveNext(MessageType& type) {
-        if (!channel_.wait({WaitLimit::Clock::now() + parallel::WorkerPool::kIdleDelay, {}})) {
+        if (!channel_.waitForMessage({WaitLimit::Clock::now() + parallel::WorkerPool::kIdleDelay, {}})) {
             rasterizer_.freeMemory();
             heap_.returnFreeMemory();
         }
         int file = Channel::kNoFile;
         if (channel_.receive(type, body_, &file) != TransferResult::complete) return false;
-        if (type == MessageType::file_descriptor) takeFile(file);
+        if (type == MessageType::file_descriptor) mapReceivedFile(file);
         if (type != MessageType::draw) return true;
         // The descriptor is missing if the kernel has dropped it because this process has too many files open.
         if (file == Channel::kNoFile)
@@ -112,14 +112,14 @@ class RasterizerService {
         return true;
     }
 
-    void takeFile(int descriptor) {
+    void mapReceivedFile(int descriptor) {
         // `file` closes the descriptor at the end of this function, because a mapping does not need its descriptor.
         const fields::FileHandle file(descriptor);
         auto mapped = fields::MappedFile::map(file.descriptor());
         mapped_.push_back(mapped ? std::move(*mapped) : nullptr);  // if mapping the file fails, the entry is null
     }
 
-    void takeObject() {
+    void cacheReceivedObject() {
         const std::string bytes = std::exchange(body_, {});
         const slicing::Object object = slicing::decodeObject(bytes, std::exchange(mapped_, {}));
         recent_.add(object, std::max(bytes.size(), slicing::memoryOf(object)));

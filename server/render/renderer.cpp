@@ -30,7 +30,7 @@
 
 namespace oval4d::render {
 
-std::string fontFile() {
+std::string defaultFontPath() {
     const char* file = std::getenv("OVAL4D_FONT");
     return file != nullptr && *file != '\0' ? file : OVAL4D_FONT;
 }
@@ -106,15 +106,15 @@ struct Renderer::Impl {
     void flushShapes();
     PixelArea depthAreaOfProjection(const scene::Scene& scene) const;
     void prepareProjection(const scene::Scene& scene);
-    void addProjection();
-    void drawProjection(const scene::Scene& scene);
-    void addConvexSlices(const scene::Scene& scene);
-    void drawConvexSlices(const scene::Scene& scene);
-    void addLayers(const scene::Scene& scene);
-    void drawLayers(const scene::Scene& scene);
+    void addProjectionToRasterizer();
+    void drawProjectionWithOpenGl(const scene::Scene& scene);
+    void prepareConvexSlicesForRasterizer(const scene::Scene& scene);
+    void drawConvexSlicesWithOpenGl(const scene::Scene& scene);
+    void addNonconvexSlicesToRasterizer(const scene::Scene& scene);
+    void drawNonconvexSlicesWithOpenGl(const scene::Scene& scene);
     void drawOpaqueSurfaces(DepthRange depths);
     void prepareFog(const scene::Scene& scene, DepthRange depths);
-    void drawFogBehindFrame(const scene::Scene& scene);
+    void drawFogBehindSkeleton(const scene::Scene& scene);
     void drawFogAndSurfaces(const scene::Scene& scene, DepthRange depths);
 
     /// The surfaces of some slices, prepared for drawing without OpenGL.
@@ -122,7 +122,7 @@ struct Renderer::Impl {
         SurfaceBatch batch;
         SurfaceRasterizer rasterizer;
 
-        void prepare(const scene::Scene& scene, SurfaceBatch::Selection selection) {
+        void prepare(const scene::Scene& scene, SurfaceBatch::SliceSelection selection) {
             DepthRange depths;  // a range of depths that collect() writes, but only drawing with OpenGL reads
             batch.collect(scene, depths, selection);
             rasterizer.projectAndLight(scene.viewport, scene.style(), batch);
@@ -143,7 +143,7 @@ struct Renderer::Impl {
     ShapeRasterizer shapeRasterizer;
     ShapeProgram patchDepthProgram, surfaceDepthProgram;
     SurfaceProgram surfaceProgram;
-    ParallelCoordinatesPlot coordinatesPlot;
+    DensityStripOrHistogramPainter coordinatesPlot;
     Overlay overlay;
     ShapeBatch shapes, strokes;  // `strokes` is drawn over everything else, without OpenGL
     ConvexShapeCollector convexCollector;
@@ -175,13 +175,13 @@ PixelArea Renderer::Impl::depthAreaOfProjection(const scene::Scene& scene) const
 // Prepares the projection of the whole object for drawing without OpenGL.
 void Renderer::Impl::prepareProjection(const scene::Scene& scene) {
     projectionCollector.collect(scene, projectionLayers);
-    projectionSurfaces.prepare(scene, SurfaceBatch::Selection::projection);
+    projectionSurfaces.prepare(scene, SurfaceBatch::SliceSelection::projection);
 }
 
 // Adds the projection of the whole object, which must have been prepared, to the rasterizer. The projection must never
 // hide a slice. Therefore shapes that are added later must not be tested against the depths of the projection. Before
 // the caller adds such shapes, it must add a clearing of the depth buffer, or it must add them with DepthUse::unused.
-void Renderer::Impl::addProjection() {
+void Renderer::Impl::addProjectionToRasterizer() {
     using DepthUse = ShapeRasterizer::DepthUse;
     using Blending = SurfaceRasterizer::Blending;
     const auto& [solid, translucent, depths] = projectionLayers;
@@ -196,11 +196,11 @@ void Renderer::Impl::addProjection() {
 // Draws the projection of the whole object with OpenGL, if the scene shows it. Leaves the depths of the projection in
 // the depth buffer. The projection must never hide a slice. Therefore the caller must clear these depths before it
 // draws slices with the depth test.
-void Renderer::Impl::drawProjection(const scene::Scene& scene) {
+void Renderer::Impl::drawProjectionWithOpenGl(const scene::Scene& scene) {
     if (!scene.projectionPlacement.shown) return;
     projectionCollector.collect(scene, projectionLayers);
     DepthRange depths = projectionLayers.depths;
-    surfaces.collect(scene, depths, SurfaceBatch::Selection::projection);
+    surfaces.collect(scene, depths, SurfaceBatch::SliceSelection::projection);
     glEnable(GL_DEPTH_TEST);
     clearDepth(depthAreaOfProjection(scene));
     drawOpaqueSurfaces(depths);
@@ -214,7 +214,7 @@ void Renderer::Impl::drawProjection(const scene::Scene& scene) {
 }
 
 // Draws convex slices with OpenGL, without a depth buffer.
-void Renderer::Impl::drawConvexSlices(const scene::Scene& scene) {
+void Renderer::Impl::drawConvexSlicesWithOpenGl(const scene::Scene& scene) {
     const auto painted = [this] {
         if (shapes.patches().size() >= kBatchPatches) flushShapes();
     };
@@ -223,7 +223,7 @@ void Renderer::Impl::drawConvexSlices(const scene::Scene& scene) {
 
 // Prepares convex slices and, if the scene shows it, the projection of the whole object for drawing without OpenGL.
 // Adds the projection to the rasterizer. Collects the slices in `shapes`, which the caller must then add.
-void Renderer::Impl::addConvexSlices(const scene::Scene& scene) {
+void Renderer::Impl::prepareConvexSlicesForRasterizer(const scene::Scene& scene) {
     const auto collectSlices = [&] { convexCollector.collect(scene, shapes, [] {}); };
     if (!scene.projectionPlacement.shown) return collectSlices();
     const auto collectProjection = [&] { prepareProjection(scene); };
@@ -231,29 +231,29 @@ void Renderer::Impl::addConvexSlices(const scene::Scene& scene) {
     const std::size_t count = elements.vertices.size() + elements.edges.size() + elements.faceSource.size();
     parallel::invoke(count < kFewShapes ? nullptr : forkJoin, std::ref(collectSlices), std::ref(collectProjection));
     shapeRasterizer.setDepthArea(depthAreaOfProjection(scene));
-    addProjection();
+    addProjectionToRasterizer();
 }
 
 // Prepares slices that may be nonconvex, surfaces and, if the scene shows it, the projection of the whole object for
-// drawing without OpenGL. Adds them to the rasterizer in the order in which drawProjection() and drawLayers() draw
-// them.
-void Renderer::Impl::addLayers(const scene::Scene& scene) {
+// drawing without OpenGL. Adds them to the rasterizer in the order in which drawProjectionWithOpenGl() and
+// drawNonconvexSlicesWithOpenGl() draw them.
+void Renderer::Impl::addNonconvexSlicesToRasterizer(const scene::Scene& scene) {
     using DepthUse = ShapeRasterizer::DepthUse;
     using Blending = SurfaceRasterizer::Blending;
     auto& [near, far] = surfaceHalves;
     const auto prepareNear = [&] {
-        near.prepare(scene, SurfaceBatch::Selection::nearer_slices);
+        near.prepare(scene, SurfaceBatch::SliceSelection::nearer_slices);
         nonconvexCollector.collect(scene, layers);
     };
     const auto prepareFar = [&] {
-        far.prepare(scene, SurfaceBatch::Selection::farther_slices);
+        far.prepare(scene, SurfaceBatch::SliceSelection::farther_slices);
         if (scene.projectionPlacement.shown) prepareProjection(scene);
     };
     parallel::invoke(forkJoin, std::ref(prepareNear), std::ref(prepareFar));
 
     shapeRasterizer.setDepthArea({{0, 0}, {scene.viewport.width, scene.viewport.height}});
     if (scene.projectionPlacement.shown) {
-        addProjection();
+        addProjectionToRasterizer();
         shapeRasterizer.addDepthClearing(depthAreaOfProjection(scene));
     }
     shapeRasterizer.add(layers.faces, DepthUse::written);
@@ -268,7 +268,7 @@ void Renderer::Impl::addLayers(const scene::Scene& scene) {
 }
 
 // Draws slices that may be nonconvex, surfaces and fog, with OpenGL.
-void Renderer::Impl::drawLayers(const scene::Scene& scene) {
+void Renderer::Impl::drawNonconvexSlicesWithOpenGl(const scene::Scene& scene) {
     nonconvexCollector.collect(scene, layers);
     DepthRange depths = layers.depths;
     surfaces.collect(scene, depths);
@@ -279,7 +279,7 @@ void Renderer::Impl::drawLayers(const scene::Scene& scene) {
     glDisable(GL_BLEND);
     patchDepthProgram.drawWithDepth(depths, layers.faces);
     drawOpaqueSurfaces(depths);
-    if (hasFog) drawFogBehindFrame(scene);
+    if (hasFog) drawFogBehindSkeleton(scene);
     surfaceDepthProgram.drawWithDepth(depths, layers.skeleton);
     glDepthMask(GL_FALSE);
     if (hasFog) {
@@ -317,7 +317,7 @@ void Renderer::Impl::prepareFog(const scene::Scene& scene, DepthRange depths) {
 }
 
 // Draws the fog behind balls and bars. The opaque surfaces must have been drawn before, but no balls and bars.
-void Renderer::Impl::drawFogBehindFrame(const scene::Scene& scene) {
+void Renderer::Impl::drawFogBehindSkeleton(const scene::Scene& scene) {
     fogPainter->copyOccluderDepths(scene.viewport, FogPainter::FogOccluders::surfaces);
     for (const SurfaceBatch::SurfacePlacement& place : surfaces.slicesFarToNear())
         fogPainter->draw(scene, place.slice, FogPainter::FogPart::behind);
@@ -395,9 +395,9 @@ void Renderer::draw(const scene::Scene& scene, std::span<std::uint8_t> pixels) {
     if (inMemory) {
         impl_->shapeRasterizer.begin(scene.viewport, scene.style(), pixels);
         if (scene.needsDepthBuffer) {
-            impl_->addLayers(scene);
+            impl_->addNonconvexSlicesToRasterizer(scene);
         } else {
-            impl_->addConvexSlices(scene);
+            impl_->prepareConvexSlicesForRasterizer(scene);
         }
     } else {
         setClearColor(scene.style());
@@ -409,14 +409,14 @@ void Renderer::draw(const scene::Scene& scene, std::span<std::uint8_t> pixels) {
     // The projection of the whole object must never cover a slice, wherever the viewer moves the camera. So it is drawn
     // before the slices, and slices are not tested against its depths.
     if (!inMemory) {
-        impl_->drawProjection(scene);
+        impl_->drawProjectionWithOpenGl(scene);
         if (scene.needsDepthBuffer) {
-            impl_->drawLayers(scene);
+            impl_->drawNonconvexSlicesWithOpenGl(scene);
         } else {
-            impl_->drawConvexSlices(scene);
+            impl_->drawConvexSlicesWithOpenGl(scene);
         }
     }
-    addAxes(scene, shapes, overlay);
+    addAxesSymbol(scene, shapes, overlay);
     addCoordinatesOverlay(scene, overlay,
                           {.below = inMemory && !scene.clearsCoordinatesArea() ? &shapes : nullptr,
                            .above = inMemory ? &strokes : nullptr});
@@ -431,7 +431,7 @@ void Renderer::draw(const scene::Scene& scene, std::span<std::uint8_t> pixels) {
         impl_->patchDepthProgram.draw(shapes);
     }
     clearCoordinatesArea(scene);
-    impl_->coordinatesPlot.draw(scene);
+    impl_->coordinatesPlot.drawStripOrHistogram(scene);
     overlay.draw();
     impl_->context.readPixels();
     if (strokes.patches().empty()) return;

@@ -16,7 +16,7 @@ namespace oval4d::render {
 
 /// Returns the path of the default font file. This is the value of the environment variable OVAL4D_FONT or, if the
 /// variable is unset or empty, the path that was set at build time.
-std::string fontFile();
+std::string defaultFontPath();
 
 /// The way in which the slices, the projection of the whole object and the axes symbol are drawn. In pictures with fog,
 /// and in pictures narrower than ShapeRasterizer::kMinWidth, they are always drawn with OpenGL.
@@ -35,7 +35,7 @@ class Renderer {
     /// outlive this object. However, only one thread draws if the environment variable LP_NUM_THREADS (the number of
     /// threads of llvmpipe, Mesa's rasterizer) is 0 or 1. Throws std::runtime_error if no context can be created, a
     /// shader does not compile, or the font cannot be read.
-    explicit Renderer(const std::string& font = fontFile(), ShapeBackend drawing = ShapeBackend::fastest,
+    explicit Renderer(const std::string& font = defaultFontPath(), ShapeBackend drawing = ShapeBackend::fastest,
                       parallel::ForkJoin* forkJoin = nullptr);
     ~Renderer();
     Renderer(const Renderer&) = delete;

@@ -9,7 +9,7 @@ namespace oval4d::render {
 
 namespace {
 
-GLuint compile(GLenum kind, std::string_view source) {
+GLuint compileShader(GLenum kind, std::string_view source) {
     const std::string text = "#version 330 core\n" + std::string(source);
     const char* data = text.c_str();
     const GLuint shader = glCreateShader(kind);
@@ -31,8 +31,8 @@ GLuint compile(GLenum kind, std::string_view source) {
 ShaderProgram::ShaderProgram(std::string_view vertexSource, std::string_view fragmentSource, std::size_t vertexSize,
                              std::span<const VertexAttribute> attributes)
     : vertexSize_(vertexSize) {
-    const GLuint vertex = compile(GL_VERTEX_SHADER, vertexSource);
-    const GLuint fragment = compile(GL_FRAGMENT_SHADER, fragmentSource);
+    const GLuint vertex = compileShader(GL_VERTEX_SHADER, vertexSource);
+    const GLuint fragment = compileShader(GL_FRAGMENT_SHADER, fragmentSource);
     program_ = glCreateProgram();
     glAttachShader(program_, vertex);
     glAttachShader(program_, fragment);

@@ -72,7 +72,7 @@ SliceArrangement rowArrangement(int count, double reach) {
 }
 
 // Returns the arrangement of the focus slice alone.
-SliceArrangement focusSliceAlone() {
+SliceArrangement focusSliceArrangement() {
     SliceArrangement made;
     made.distance = kSingleDistance;
     made.isClearOfAxes = true;
@@ -82,7 +82,7 @@ SliceArrangement focusSliceAlone() {
 // Returns a straight column of `count` slices, with the last slice at the top: a row that is turned by a quarter.
 // `reach` is the radius of a slice with its balls.
 SliceArrangement columnArrangement(int count, double reach) {
-    if (count == 1) return focusSliceAlone();
+    if (count == 1) return focusSliceArrangement();
     SliceArrangement made = rowArrangement(count, reach);
     std::swap(made.halfWidth, made.halfHeight);
     // If false, the uppermost slices would often cover the symbol of the axes in tall pictures.
@@ -105,7 +105,7 @@ SliceArrangement gridArrangement(int count, double reach, const AvailableSpace& 
     // If the width of the room divided by its height is at least this, the projection is to the left of the grid,
     // otherwise above it.
     constexpr double kLeastWideAspect = 1.3;
-    if (count == 1) return focusSliceAlone();
+    if (count == 1) return focusSliceArrangement();
     const double text = style().textHeight;
     SliceGrid grid;
     grid.count = count;
@@ -190,10 +190,10 @@ SliceArrangement arrangementOf(View view, int count, double relativeBall, double
             made = count == 2 ? rowArrangement(count, 1 + relativeBall) : ovalArrangement(count, aspect);
             break;
         case View::single:
-            made = focusSliceAlone();
+            made = focusSliceArrangement();
             break;
         case View::matrix:
-            made = focusSliceAlone();
+            made = focusSliceArrangement();
             made.showsMatrix = true;
             break;
         case View::strip:

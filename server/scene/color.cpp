@@ -47,7 +47,7 @@ struct LightnessPerScheme {
 
 // Returns the color, given in Oklch, for a color scheme. In the light scheme, reduces the lightness until the contrast
 // to white is at least kLeastContrast.
-Color colorFor(ColorScheme scheme, LightnessPerScheme lightness, double chroma, double hue) {
+Color oklchColorForScheme(ColorScheme scheme, LightnessPerScheme lightness, double chroma, double hue) {
     constexpr double kLeastContrast = 3.6;
     constexpr Color kWhite = 0xffffff;
     if (scheme == ColorScheme::dark) return fromOklch(lightness.onDark, chroma, hue);
@@ -61,7 +61,8 @@ Color colorFor(ColorScheme scheme, LightnessPerScheme lightness, double chroma, 
 Color distinctColor(std::size_t i, std::size_t count, ColorScheme scheme) {
     const double step = count <= 8 ? 1.0 / static_cast<double>(count) : std::numbers::phi - 1;
     const double hue = kTau * (0.07 + std::fmod(static_cast<double>(i) * step, 1.0));
-    return colorFor(scheme, i % 2 == 0 ? LightnessPerScheme{0.76, 0.61} : LightnessPerScheme{0.69, 0.5}, 0.18, hue);
+    return oklchColorForScheme(scheme, i % 2 == 0 ? LightnessPerScheme{0.76, 0.61} : LightnessPerScheme{0.69, 0.5},
+                               0.18, hue);
 }
 
 // If there are at most kFew cells, gives each of them a color of its own, with well-separated hues. If there are more
@@ -82,7 +83,8 @@ void assignColorsByCell(const slicing::Object& object, ColorScheme scheme, std::
         const double p = 2 * (d.x * d.z + d.y * d.w) / r2;
         const double q = 2 * (d.y * d.z - d.x * d.w) / r2;
         const double height = (d.x * d.x + d.y * d.y - d.z * d.z - d.w * d.w) / r2;
-        out[c] = colorFor(scheme, {0.71 + 0.11 * height, 0.53 + 0.09 * height}, 0.16, std::atan2(q, p) + 0.45);
+        out[c] =
+            oklchColorForScheme(scheme, {0.71 + 0.11 * height, 0.53 + 0.09 * height}, 0.16, std::atan2(q, p) + 0.45);
     }
 }
 
@@ -104,7 +106,7 @@ ColorScale divergingScale(ColorScheme scheme) {
         const LightnessPerScheme lightness{0.74 - 0.06 * reach * (t < 0 ? 1.5 : -0.5),
                                            0.62 - reach * (t < 0 ? 0.15 : 0.05)};
         scale.at(static_cast<std::size_t>(i)) =
-            colorFor(scheme, lightness, 0.01 + 0.17 * std::pow(reach, 0.8), t < 0 ? kBlue : kAmber);
+            oklchColorForScheme(scheme, lightness, 0.01 + 0.17 * std::pow(reach, 0.8), t < 0 ? kBlue : kAmber);
     }
     return scale;
 }
@@ -138,7 +140,7 @@ ColorScale lightingColorScale(ColorScheme scheme) {
         const double light = std::pow(static_cast<double>(i) / (kScaleSteps - 1), 1.3);
         const LightnessPerScheme lightness{kDark.onDark + kRange.onDark * light,
                                            kDark.onLight + kRange.onLight * light};
-        scale.at(static_cast<std::size_t>(i)) = colorFor(scheme, lightness, 0.09, kHue);
+        scale.at(static_cast<std::size_t>(i)) = oklchColorForScheme(scheme, lightness, 0.09, kHue);
     }
     return scale;
 }
@@ -153,7 +155,8 @@ ColorScale sequentialColorScale(ColorScheme scheme) {
         const double t = static_cast<double>(i) / (kScaleSteps - 1);
         const LightnessPerScheme lightness{std::lerp(kDarkest.onDark, kLightest.onDark, t),
                                            std::lerp(kDarkest.onLight, kLightest.onLight, t)};
-        scale.at(static_cast<std::size_t>(i)) = colorFor(scheme, lightness, 0.14, kBlue + (kYellow - kBlue) * t);
+        scale.at(static_cast<std::size_t>(i)) =
+            oklchColorForScheme(scheme, lightness, 0.14, kBlue + (kYellow - kBlue) * t);
     }
     return scale;
 }
@@ -190,7 +193,7 @@ Color levelColor(std::size_t i, std::size_t count, ColorScheme scheme) {
     return distinctColor(i, std::max<std::size_t>(count, 3), scheme);
 }
 
-Color plainColor(ColorScheme scheme) { return colorFor(scheme, {0.72, 0.55}, 0.1, 4.2); }
+Color plainColor(ColorScheme scheme) { return oklchColorForScheme(scheme, {0.72, 0.55}, 0.1, 4.2); }
 
 Color divergingColor(double value, ColorScheme scheme) {
     return colorAt(colorScaleFor(divergingScales(), scheme), std::isnan(value) ? 0 : value);
@@ -215,7 +218,7 @@ void CellColorAssigner::updateCellColors(const slicing::Object& object, Coloring
         std::fill(out.begin(), out.end(), plainColor(scheme));
     if (coloring == Coloring::w) {
         if (changed) slicing::findCellCenters(object, directions_);
-        colorByCenters(object, changed, orientation, out);
+        colorByWOfCenters(object, changed, orientation, out);
     } else if (coloring == Coloring::light) {
         if (changed) setDirectionsToNormals(object);
         static const ScalePerScheme kScales = colorScalesPerScheme(lightingColorScale);
@@ -229,7 +232,7 @@ void CellColorAssigner::updateFaceColors(const slicing::Object& object, Coloring
     const bool changed = prepareColors(object, coloring, scheme, count, out);
     if (coloring == Coloring::w) {
         if (changed) slicing::findFaceCenters(object, directions_);
-        colorByCenters(object, changed, orientation, out);
+        colorByWOfCenters(object, changed, orientation, out);
     } else if (changed) {
         out[0] = plainColor(scheme);
     }
@@ -250,8 +253,8 @@ bool CellColorAssigner::prepareColors(const slicing::Object& object, Coloring co
 
 // Gives each cell or 2-face the divergingColor() for the w of its center. If `isNew` is true, scales the centers in
 // directions_ first; otherwise, an earlier call has already scaled them.
-void CellColorAssigner::colorByCenters(const slicing::Object& object, bool isNew, const geometry::Rotation& orientation,
-                                       std::vector<Color>& out) {
+void CellColorAssigner::colorByWOfCenters(const slicing::Object& object, bool isNew,
+                                          const geometry::Rotation& orientation, std::vector<Color>& out) {
     if (isNew) scaleDirections(slicing::infoOf(object).circumradius);
     colorByDirection(colorScaleFor(divergingScales(), scheme_), orientation.inverse()(glm::dvec4(0, 0, 0, 1)), out);
 }

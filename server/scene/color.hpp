@@ -76,8 +76,8 @@ class CellColorAssigner {
   private:
     bool prepareColors(const slicing::Object& object, Coloring coloring, ColorScheme scheme, std::size_t count,
                        std::vector<Color>& out);
-    void colorByCenters(const slicing::Object& object, bool isNew, const geometry::Rotation& orientation,
-                        std::vector<Color>& out);
+    void colorByWOfCenters(const slicing::Object& object, bool isNew, const geometry::Rotation& orientation,
+                           std::vector<Color>& out);
     void scaleDirections(double circumradius);
     void setDirectionsToNormals(const slicing::Object& object);
     void colorByDirection(const std::array<Color, 255>& scale, const glm::dvec4& axis, std::vector<Color>& out) const;

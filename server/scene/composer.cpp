@@ -165,8 +165,8 @@ void Composer::compose(const Object& object, const geometry::Rotation& orientati
         cutSectionMatrix(object, orientation, focus, out);
         traceContours(object, orientation, quality, out);
     }
-    if (draws && out.showsDensity()) measureDensity(orientation, out);
-    if (draws && out.showsHistogram()) measureFieldHistograms(object, orientation, out);
+    if (draws && out.showsDensityStrip()) updateDensityPlot(orientation, out);
+    if (draws && out.showsHistogram()) updateFieldHistograms(object, orientation, out);
 }
 
 // Finds the slice elements that show the highlighted element of the object. Gives a highlighted cell the highlight
@@ -207,7 +207,7 @@ void Composer::nameSection(const Object& object, const geometry::Rotation& orien
     if (slice < 0 || slice >= slices.planes.count) return;
     const double w = slices.planes.w(slice);
     if (const fields::Field* const field = slicing::fieldIn(object))
-        focusName = fields::placeInBox(*field, orientation, w, slices.planes.spacing);
+        focusName = fields::constantSliceCoordinateText(*field, orientation, w, slices.planes.spacing);
     if (!slicing::propertiesOf(object).sectionsHaveNames) return;
     if (!section_ || !section_->isSectionOf(object, orientation, w)) {
         section_ = slicing::NamedSection{
@@ -235,7 +235,7 @@ void Composer::layOutIfChanged(const Object& object, const geometry::Hyperplanes
     input.look = out.look;
     input.viewport = out.viewport;
     if (laidOutIn_ == &out && laidOut_ == input) return;
-    layOut(input.planes, focus, input.content, out.look, out.viewport, input.focusName, out);
+    layOutPicture(input.planes, focus, input.content, out.look, out.viewport, input.focusName, out);
     laidOut_ = input;
     laidOutIn_ = &out;
 }
@@ -325,7 +325,7 @@ void Composer::cutSectionMatrix(const Object& object, const geometry::Rotation& 
     const auto counts = slicing::elementCounts(object);
     const auto faces = static_cast<std::uint32_t>(counts[2]), edges = static_cast<std::uint32_t>(counts[1]);
     for (std::size_t i = 0; i < matrix.sections.size(); ++i) {
-        SectionMatrix::SectionStyle& styles = matrix.styles[i];
+        SectionMatrix::SectionElementLooks& styles = matrix.styles[i];
         styles = {};
         for (const std::uint32_t source : matrix.sections[i].edgeSource) {
             styles.edgeCells.push_back(slicing::coloringCell(object, out.visibilities, source));
@@ -370,7 +370,7 @@ void Composer::setCellTypeFilter(const Object& object, const CellTypeFilter& fil
     filter_ = filter;
 }
 
-void Composer::measureDensity(const geometry::Rotation& orientation, Scene& out) {
+void Composer::updateDensityPlot(const geometry::Rotation& orientation, Scene& out) {
     if (densityObject_ != object_ || densityTurn_ != orientation || out.plotTones.empty()) {
         density_.compute(out.slices->rotatedVertices, glm::dmat4(1), out.circumradius);
         densityObject_ = object_;
@@ -380,7 +380,7 @@ void Composer::measureDensity(const geometry::Rotation& orientation, Scene& out)
     out.plotTones.assign(tones.begin(), tones.end());
 }
 
-void Composer::measureFieldHistograms(const Object& object, const geometry::Rotation& orientation, Scene& out) {
+void Composer::updateFieldHistograms(const Object& object, const geometry::Rotation& orientation, Scene& out) {
     const slicing::FieldSettings& settings = out.look.field;
     if (densityObject_ != object_ || densityTurn_ != orientation || histogramLevels_ != settings.levels ||
         out.plotTones.empty()) {

@@ -104,8 +104,8 @@ class Composer {
     void layOutIfChanged(const slicing::Object& object, const geometry::Hyperplanes& planes, int focus, Scene& out);
     void updateHighlight(const slicing::Object& object, bool objectChanged, Scene& out);
     void removeHighlightColor(Scene& out);
-    void measureDensity(const geometry::Rotation& orientation, Scene& out);
-    void measureFieldHistograms(const slicing::Object& object, const geometry::Rotation& orientation, Scene& out);
+    void updateDensityPlot(const geometry::Rotation& orientation, Scene& out);
+    void updateFieldHistograms(const slicing::Object& object, const geometry::Rotation& orientation, Scene& out);
 
     std::size_t fillSteps_ = slicing::FaceFiller::kNoLimit;
     std::size_t occlusionSteps_ = slicing::OcclusionFinder::kDefaultSteps;

@@ -13,7 +13,7 @@ namespace {
 
 // Returns the width for the parallel coordinates between the margins, in viewport heights: at least half of the
 // viewport's width.
-double availableWidth(double aspect) { return std::max(aspect - 4 * kMargin, aspect / 2); }
+double availableCoordinatesWidth(double aspect) { return std::max(aspect - 4 * kMargin, aspect / 2); }
 
 // The maximum of ParallelCoordinatesLayout::lineStep for a density strip or histogram.
 constexpr double kMaxAxisStep = 0.42;
@@ -23,7 +23,7 @@ constexpr double kStripNameRoom = 1.1;  // the room below the plot for the names
 void layOutDensityStrip(std::size_t vertices, double aspect, ParallelCoordinatesLayout& out) {
     out = {.rows = 1, .perRow = static_cast<int>(vertices), .lineWidth = 0.0022, .amplitude = kPlotAmplitude};
     out.isDensityStrip = true;
-    out.lineStep = std::clamp((availableWidth(aspect) - out.lineWidth) / 3, 0.0, kMaxAxisStep);
+    out.lineStep = std::clamp((availableCoordinatesWidth(aspect) - out.lineWidth) / 3, 0.0, kMaxAxisStep);
     out.left = (aspect - 3 * out.lineStep - out.lineWidth) / 2;
     out.zero = kMargin + kStripNameRoom * style().textHeight + kPlotAmplitude;
 }
@@ -32,7 +32,7 @@ void layOutHistogram(double aspect, ParallelCoordinatesLayout& out) {
     // The gap between two panels of a histogram, as a fraction of ParallelCoordinatesLayout::lineStep.
     constexpr double kGap = 0.08;
     out = {.lineWidth = 0.0022, .amplitude = kPlotAmplitude};
-    out.lineStep = std::clamp(availableWidth(aspect) / (4 - kGap), 0.0, kMaxAxisStep);
+    out.lineStep = std::clamp(availableCoordinatesWidth(aspect) / (4 - kGap), 0.0, kMaxAxisStep);
     out.panel = (1 - kGap) * out.lineStep;
     out.left = (aspect - 3 * out.lineStep - out.panel) / 2;
     out.zero = kMargin + kStripNameRoom * style().textHeight + kPlotAmplitude;
@@ -52,7 +52,7 @@ void layOutCoordinates(const LayoutObjectInfo& content, double aspect, ParallelC
         layOutDensityStrip(vertices, aspect, out);
         return;
     }
-    const double width = availableWidth(aspect);
+    const double width = availableCoordinatesWidth(aspect);
     out.isDensityStrip = false;
     out.panel = 0;
     const auto count = static_cast<double>(std::max<std::size_t>(vertices, 1));

@@ -17,7 +17,7 @@ constexpr int kBins = 2 * kMaxLevel + 1;
 // Halves are rounded to the even integer, so opposite numbers remain opposite.
 constexpr float kRounder = 12582912.0F;  // the value is 1.5 · 2²³
 
-std::uint32_t binOf(float level) {
+std::uint32_t densityBinOf(float level) {
     return std::bit_cast<std::uint32_t>(level + kRounder) - (std::bit_cast<std::uint32_t>(kRounder) - kMaxLevel);
 }
 
@@ -55,7 +55,8 @@ void DensityPlot::countColumn(int column) {
     std::array<std::uint32_t, kBatch> bins;
     for (std::size_t begin = 0; begin < count; begin += kBatch) {
         const std::size_t size = std::min(kBatch, count - begin);
-        for (std::size_t i = 0; i < size; ++i) bins[i] = binOf(from[begin + i] + t * (to[begin + i] - from[begin + i]));
+        for (std::size_t i = 0; i < size; ++i)
+            bins[i] = densityBinOf(from[begin + i] + t * (to[begin + i] - from[begin + i]));
         for (std::size_t i = 0; i < size; ++i) ++tables[i % kTables][bins[i]];
     }
 

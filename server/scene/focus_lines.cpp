@@ -11,7 +11,7 @@ constexpr double kHalfLength = 0.12;  // half the length of each line, in circum
 
 }  // namespace
 
-std::array<ViewSegment, 3> focusLines(const Scene& scene, const SlicePlacement& placement) {
+std::array<ViewSegment, 3> focusPointSegments(const Scene& scene, const SlicePlacement& placement) {
     const glm::dmat4 toView = scene.camera.view();
     const auto viewOf = [&](const glm::dvec3& point) {
         return glm::dvec3(toView * glm::dvec4(placement.position + scene.scale * point, 1));

@@ -14,6 +14,6 @@ using ViewSegment = std::array<glm::dvec3, 2>;
 
 /// Returns three line segments through the focus point, along x, y and z, in the slice at `placement`. The focus point
 /// is the middle of each segment.
-std::array<ViewSegment, 3> focusLines(const Scene& scene, const SlicePlacement& placement);
+std::array<ViewSegment, 3> focusPointSegments(const Scene& scene, const SlicePlacement& placement);
 
 }  // namespace oval4d::scene

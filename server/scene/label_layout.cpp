@@ -75,7 +75,7 @@ void LabelLayout::placeLabels(const Camera& camera) {
     }
 }
 
-void LabelLayout::nameFocusSlice(std::string_view name, const Camera& camera, double aspect) {
+void LabelLayout::appendNameToFocusLabel(std::string_view name, const Camera& camera, double aspect) {
     const auto focus = std::ranges::find_if(placements_, &SlicePlacement::focus);
     if (name.empty() || focus == placements_.end()) return;
     nameWidth_ = kLetterWidth * static_cast<double>(name.size() + 2);
@@ -86,7 +86,7 @@ void LabelLayout::nameFocusSlice(std::string_view name, const Camera& camera, do
         const double depth = -(view * glm::dvec4(focus->position, 1)).z;
         focus->labelAt += right * (fontSize(*focus) * nameWidth_ / 2 * depth / camera.focalLength());
     }
-    const CenteredRect box = boxSeenBy(camera, view, aspect, *focus);
+    const CenteredRect box = labelBoxSeenBy(camera, view, aspect, *focus);
     if (box.center.x < box.half.x || box.center.x > aspect - box.half.x) {
         nameWidth_ = 0;
         focus->labelAt = withoutName;
@@ -101,7 +101,7 @@ void LabelLayout::removeOverlappingLabels(const Camera& camera, double aspect, d
     const auto focus = std::ranges::find_if(placements_, &SlicePlacement::focus) - placements_.begin();
     const std::ptrdiff_t step = smallestLabelStep(focus, camera.focalLength());
     const glm::dmat4 toView = camera.view();
-    const auto boxOf = [&](std::ptrdiff_t i) { return boxSeenBy(camera, toView, aspect, placements_[i]); };
+    const auto boxOf = [&](std::ptrdiff_t i) { return labelBoxSeenBy(camera, toView, aspect, placements_[i]); };
     const auto keeps = [&](std::ptrdiff_t i, std::ptrdiff_t distance) {
         const SlicePlacement& placement = placements_[i];
         if (placement.focus || !placement.drawn) return true;
@@ -150,7 +150,7 @@ glm::dvec2 LabelLayout::sliceCenterOnPlane(double u) const {
     return glm::dvec2(p.x, space_.heightAboveAxis(p)) / space_.depth(p);
 }
 
-double LabelLayout::extentOf(double u, const glm::dvec2& direction, double scale) const {
+double LabelLayout::screenExtentOfSlice(double u, const glm::dvec2& direction, double scale) const {
     const double r = arrangement_.reach * arrangement_.relativeSliceRadiusAt(u);
     const glm::dvec3 p = arrangement_.positionAt(u);
     const double d = space_.depth(p), a = glm::dot(direction, glm::dvec2(p.x, space_.heightAboveAxis(p)));
@@ -165,7 +165,7 @@ glm::dvec2 LabelLayout::labelOffset(std::size_t i, double scale) const {
     if (glm::length(along) > 0)
         outward =
             glm::normalize(glm::normalize(glm::dvec2(along.y, -along.x)) + glm::dvec2(0, -arrangement_.labelDrop));
-    const double radius = extentOf(u, outward, scale);
+    const double radius = screenExtentOfSlice(u, outward, scale);
     const SlicePlacement& placement = placements_[i];
     return outward * (radius + labelGapOf(placement) + glm::dot(glm::abs(outward), halfTextSize(placement)));
 }
@@ -193,8 +193,8 @@ bool LabelLayout::overlapsOtherSlice(std::ptrdiff_t i, const CenteredRect& box, 
     return false;
 }
 
-CenteredRect LabelLayout::boxSeenBy(const Camera& camera, const glm::dmat4& toView, double aspect,
-                                    const SlicePlacement& placement) const {
+CenteredRect LabelLayout::labelBoxSeenBy(const Camera& camera, const glm::dmat4& toView, double aspect,
+                                         const SlicePlacement& placement) const {
     const glm::dvec3 p(toView * glm::dvec4(placement.labelAt, 1));
     const glm::dvec2 top = screenPosition(p, camera, aspect);
     const double name = placement.focus ? fontSize(placement) * nameWidth_ / 2 : 0;

@@ -43,7 +43,7 @@ class LabelLayout {
     /// Appends the name of the section to the label of the focus slice (the middle one), if there is room for it in the
     /// picture. `aspect` is the width of the picture in viewport heights. A label beside its slice grows only to the
     /// right, away from the slice.
-    void nameFocusSlice(std::string_view name, const Camera& camera, double aspect);
+    void appendNameToFocusLabel(std::string_view name, const Camera& camera, double aspect);
 
     /// Removes labels so that no two of them overlap. Keeps the label of the focus slice (the middle one) and, of the
     /// others, at most every k-th (see smallestLabelStep()). Also removes a label in these cases:
@@ -80,7 +80,7 @@ class LabelLayout {
     // the depth of the center. A line on the screen perpendicular to n shows a plane through the eye: the points with
     // coordinates p and depth q for which n·p = e·q, for some number e. The plane touches the sphere if (n·c − e·d)² =
     // r²·(1 + e²). With the larger solution e, the sphere extends by e·d − n·c world units.
-    double extentOf(double u, const glm::dvec2& direction, double scale) const;
+    double screenExtentOfSlice(double u, const glm::dvec2& direction, double scale) const;
 
     // Returns the vector on the screen from the center of slice i to the center of its label, in viewport heights. At
     // the depth of the slice, a world unit appears as `scale` viewport heights.
@@ -95,9 +95,9 @@ class LabelLayout {
     // left corner. `aspect` is the width of the picture, in viewport heights.
     static glm::dvec2 screenPosition(const glm::dvec3& p, const Camera& camera, double aspect);
 
-    // Returns whether the box of label i overlaps a slice other than slice i. `box` is the result of boxSeenBy() for
-    // this label. `toView` is camera.view(), which the caller computes once for all labels. `aspect` is the width of
-    // the picture, in viewport heights.
+    // Returns whether the box of label i overlaps a slice other than slice i. `box` is the result of labelBoxSeenBy()
+    // for this label. `toView` is camera.view(), which the caller computes once for all labels. `aspect` is the width
+    // of the picture, in viewport heights.
     bool overlapsOtherSlice(std::ptrdiff_t i, const CenteredRect& box, const Camera& camera, const glm::dmat4& toView,
                             double aspect) const;
 
@@ -105,8 +105,8 @@ class LabelLayout {
     // from the lower left corner of the picture. The box of the focus slice's label includes the name of the section.
     // `toView` is camera.view(), which the caller computes once for all labels. `aspect` is the width of the picture,
     // in viewport heights.
-    CenteredRect boxSeenBy(const Camera& camera, const glm::dmat4& toView, double aspect,
-                           const SlicePlacement& placement) const;
+    CenteredRect labelBoxSeenBy(const Camera& camera, const glm::dmat4& toView, double aspect,
+                                const SlicePlacement& placement) const;
 
     // Returns the smallest k for which no two labels overlap if only every k-th label, counted from the focus slice
     // (the middle one), is kept. The camera is at its first place, before the viewer moves it. `scale` is the length in

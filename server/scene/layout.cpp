@@ -38,7 +38,8 @@ Circle projectedOutlineOf(const glm::dvec3& position, double radius, const Initi
 }
 
 // Returns circles, on the plane at distance 1 from the eye, within which the slices are assumed to lie.
-std::vector<Circle> circlesOf(const std::vector<SlicePlacement>& placements, const SliceArrangement& arrangement) {
+std::vector<Circle> sliceOutlineCircles(const std::vector<SlicePlacement>& placements,
+                                        const SliceArrangement& arrangement) {
     const InitialViewSpace space(arrangement);
     std::vector<Circle> circles;
     for (std::size_t i = 0; i < placements.size(); ++i) {
@@ -62,7 +63,7 @@ Rect boundsOf(const std::vector<Circle>& circles) {
 // Sets the radii of the object, its balls and its bars in `placement`, so that the projection of the object with its
 // balls fits into a sphere with the radius `placement.radius`. `relativeBall` is the radius of the balls of slices, as
 // a fraction of the slice radius.
-void setRadii(const ProjectionSettings& projection, double relativeBall, ProjectionPlacement& placement) {
+void setProjectionRadii(const ProjectionSettings& projection, double relativeBall, ProjectionPlacement& placement) {
     // The projection has many more bars in less room than a slice. So its balls and bars are thinner than those of
     // slices, by this factor.
     constexpr double kThinner = 0.55;
@@ -135,7 +136,7 @@ void aimCamera(const CameraOrbit& orbit, const SliceArrangement& arrangement, Ca
 }
 
 // Returns a box that contains the symbol of the axes with their names, whatever the directions of the axes are.
-CenteredRect boxOf(const AxesSymbolLayout& axes) {
+CenteredRect axesSymbolBox(const AxesSymbolLayout& axes) {
     constexpr double kNameRoom = 0.02;
     return {{axes.x, 1 - axes.y}, glm::dvec2(axes.length + kNameRoom)};
 }
@@ -229,8 +230,8 @@ std::optional<SectionMatrixLayout::Panel> SectionMatrixLayout::panelAt(glm::dvec
     return found;
 }
 
-void layOut(const geometry::Hyperplanes& planes, int focus, const LayoutObjectInfo& content, const Look& look,
-            Viewport viewport, std::string_view focusName, PictureLayout& out) {
+void layOutPicture(const geometry::Hyperplanes& planes, int focus, const LayoutObjectInfo& content, const Look& look,
+                   Viewport viewport, std::string_view focusName, PictureLayout& out) {
     const double aspect = static_cast<double>(viewport.width) / viewport.height;
     layOutCoordinates(content, aspect, out.coordinates);
     out.axes = {0.06, 0.075, 0.045};
@@ -242,7 +243,7 @@ void layOut(const geometry::Hyperplanes& planes, int focus, const LayoutObjectIn
     // in the projection are proportional to it.
     const double relativeBall = look.thickness * content.relativeBallRadius;
     const bool projected = look.projection.kind != ProjectionKind::off;
-    const auto [right, below] = roomBesideAndBelow(boxOf(out.axes), room);
+    const auto [right, below] = roomBesideAndBelow(axesSymbolBox(out.axes), room);
     const AvailableSpace sliceRoom{sizeOf(room), {sizeOf(right), sizeOf(below)}, projected};
     const SliceArrangement arrangement = arrangementOf(look.view, planes.count, relativeBall, aspect, sliceRoom);
     out.matrix = arrangement.showsMatrix ? placeMatrix(room, content.relativeBallRadius) : SectionMatrixLayout{};
@@ -254,7 +255,7 @@ void layOut(const geometry::Hyperplanes& planes, int focus, const LayoutObjectIn
     aimCamera(look.orbit, arrangement, out.camera);
     LabelLayout labels(arrangement, decimals, content.originW, out.placements);
     if (arrangement.labelColumns > 0) labels.shrinkLabels((room.right - room.left) / arrangement.labelColumns);
-    std::vector<Circle> circles = circlesOf(out.placements, arrangement);
+    std::vector<Circle> circles = sliceOutlineCircles(out.placements, arrangement);
     ProjectionPlacement& projection = out.projectionPlacement;
     projection = {};
     if (projected) {
@@ -264,19 +265,20 @@ void layOut(const geometry::Hyperplanes& planes, int focus, const LayoutObjectIn
     if (projection.shown)
         circles.push_back(projectedOutlineOf(projection.position, projection.radius, InitialViewSpace(arrangement)));
     const Rect bounds = boundsOf(circles);
-    const Rect inside = arrangement.isClearOfAxes ? roomClearOfAxes(room, bounds, labels, circles, boxOf(out.axes))
-                                                  : roomForSlices(room, bounds, labels);
+    const Rect inside = arrangement.isClearOfAxes
+                            ? roomClearOfAxes(room, bounds, labels, circles, axesSymbolBox(out.axes))
+                            : roomForSlices(room, bounds, labels);
     if (projected && !projection.shown) {
         const double scale = scaleToFit(bounds, inside);
         const double top = (bounds.bottom + bounds.top) / 2 + (room.top - (inside.bottom + inside.top) / 2) / scale;
         projection = placeProjectionInsideOval(arrangement, out.placements, top);
     }
-    if (projected) setRadii(look.projection, relativeBall, projection);
+    if (projected) setProjectionRadii(look.projection, relativeBall, projection);
     fitCamera(bounds, inside, aspect, look.orbit.zoom, out.camera);
     labels.placeLabels(out.camera);
     if (look.parts.labels) {
-        labels.nameFocusSlice(focusName, out.camera, aspect);
-        labels.removeOverlappingLabels(out.camera, aspect, room.bottom - kMargin, boxOf(out.axes),
+        labels.appendNameToFocusLabel(focusName, out.camera, aspect);
+        labels.removeOverlappingLabels(out.camera, aspect, room.bottom - kMargin, axesSymbolBox(out.axes),
                                        look.orbit != CameraOrbit{});
     }
 }

@@ -147,7 +147,7 @@ struct LayoutObjectInfo {
 /// Lays out a picture. `planes` are the hyperplanes of the slices, and `focus` is the index n of the focus slice, the
 /// middle one (see geometry::Hyperplanes). `focusName` is the text that follows w in the label of the focus slice, if
 /// there is room for it. Overwrites `out` and reuses its memory.
-void layOut(const geometry::Hyperplanes& planes, int focus, const LayoutObjectInfo& content, const Look& look,
-            Viewport viewport, std::string_view focusName, PictureLayout& out);
+void layOutPicture(const geometry::Hyperplanes& planes, int focus, const LayoutObjectInfo& content, const Look& look,
+                   Viewport viewport, std::string_view focusName, PictureLayout& out);
 
 }  // namespace oval4d::scene

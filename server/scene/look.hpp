@@ -31,14 +31,14 @@ enum class View : std::uint8_t {
     grid = 5,    ///< all slices, at the same size in rows that are read from left to right and from top to bottom
 };
 /// A row of the table of views. arrangement.cpp says where each view shows the slices, the labels and the projection.
-struct ViewRow {
+struct ViewTableRow {
     std::string_view name;  ///< the name in messages, queries and on the command line
     View value;
     bool showsAllSlices;  ///< whether the view shows all slices, not only the focus slice
     /// Whether exported drawings of the view are in portrait format (taller than wide).
     bool isExportedInPortrait = false;
 };
-inline constexpr auto kViews = text::completeTable<ViewRow>(
+inline constexpr auto kViews = text::completeTable<ViewTableRow>(
     {{.name = "oval", .value = View::oval, .showsAllSlices = true},
      {.name = "single", .value = View::single, .showsAllSlices = false},
      {.name = "matrix", .value = View::matrix, .showsAllSlices = false},
@@ -48,12 +48,13 @@ inline constexpr auto kViews = text::completeTable<ViewRow>(
 constexpr const auto& choicesOf(View /*type*/) { return kViews; }
 /// Returns whether the view shows all slices, not only the focus slice.
 constexpr bool showsAllSlices(View view) {
-    return std::ranges::any_of(kViews, [view](const ViewRow& row) { return row.value == view && row.showsAllSlices; });
+    return std::ranges::any_of(kViews,
+                               [view](const ViewTableRow& row) { return row.value == view && row.showsAllSlices; });
 }
 /// Returns whether exported drawings of the view are in portrait format (taller than wide).
 constexpr bool isExportedInPortrait(View view) {
-    return std::ranges::any_of(kViews,
-                               [view](const ViewRow& row) { return row.value == view && row.isExportedInPortrait; });
+    return std::ranges::any_of(
+        kViews, [view](const ViewTableRow& row) { return row.value == view && row.isExportedInPortrait; });
 }
 
 /// The property that determines the colors of cells or, for fields, of surfaces. Each face of a slice has the color of
@@ -80,14 +81,14 @@ constexpr const auto& choicesOf(Coloring /*type*/) { return kColorings; }
 /// How the caps of a field's surfaces are drawn. A cap is a part of the boundary of the field's domain that closes the
 /// body inside a surface where the domain ends. Stored sessions contain the numbers of the enumerators; therefore these
 /// numbers must not change.
-enum class CapStyle : std::uint8_t {
+enum class SurfaceCapStyle : std::uint8_t {
     plain = 0,  ///< in the color of the level or of the slice
     value = 1,  ///< in colors that show values, as with Coloring::value
     open = 2,   ///< no caps: the surfaces are open at the domain's boundary
 };
-inline constexpr auto kCapStyles = text::completeTable<text::NamedValue<CapStyle>>(
-    {{"plain", CapStyle::plain}, {"value", CapStyle::value}, {"open", CapStyle::open}});
-constexpr const auto& choicesOf(CapStyle /*type*/) { return kCapStyles; }
+inline constexpr auto kCapStyles = text::completeTable<text::NamedValue<SurfaceCapStyle>>(
+    {{"plain", SurfaceCapStyle::plain}, {"value", SurfaceCapStyle::value}, {"open", SurfaceCapStyle::open}});
+constexpr const auto& choicesOf(SurfaceCapStyle /*type*/) { return kCapStyles; }
 
 /// The kinds of projection of the whole object to three dimensions. placeProjectionBeside() says where each view shows
 /// the projection. Stored sessions contain the numbers of the enumerators; therefore these numbers must not change.
@@ -151,7 +152,7 @@ struct Look {
     /// of the focus slice (the middle one). The planes of the matrix view pass through this point.
     glm::dvec3 focusPoint{0};
     slicing::FieldSettings field = {};  ///< for a field: the levels whose surfaces are shown, and the fog
-    CapStyle caps = CapStyle::plain;
+    SurfaceCapStyle caps = SurfaceCapStyle::plain;
     Background background = Background::automatic;
     double thickness = 1;  ///< multiplies the radii of all balls and bars; within kThicknessRange
     double opacity = 1;    ///< multiplies the opacity of translucent faces; within kOpacityRange

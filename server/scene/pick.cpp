@@ -94,7 +94,7 @@ class ElementPicker {
             if (distance > std::max(scene_.matrix.pointRadius * size_.y * own, kHitRadius)) continue;
             if (distance > nearest || styles.points[i] == Visibility::hidden) continue;
             nearest = distance;
-            picked_ = {elementOfPoint(section->pointSource[i]), PickLocation::matrix, 0};
+            picked_ = {elementOfSectionPoint(section->pointSource[i]), PickLocation::matrix, 0};
         }
         if (picked_) return;
         nearest = std::max(scene_.matrix.lineWidth / 2 * size_.y, kHitRadius);
@@ -138,7 +138,7 @@ class ElementPicker {
 
     // Returns the element of the object from which a point of a planar section was cut. `source` is the source number
     // of the point (see PlanarSection).
-    Element elementOfPoint(std::uint32_t source) const {
+    Element elementOfSectionPoint(std::uint32_t source) const {
         if (source < counts_[2]) return {ElementKind::face, source};
         return elementOfSource(source - static_cast<std::uint32_t>(counts_[2]), ElementKind::edge, counts_[1],
                                ElementKind::vertex);

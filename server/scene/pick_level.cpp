@@ -41,24 +41,24 @@ class RayCaster {
 
     // Finds the nearest point of a surface that `element` does not hide. Searches the slices first and then, if they
     // show no such point, the projection.
-    std::optional<PickedLevel> nearestLevelBefore(const std::optional<PickedElement>& element) {
+    std::optional<PickedLevel> nearestLevelInFrontOf(const std::optional<PickedElement>& element) {
         constexpr double kInf = std::numeric_limits<double>::infinity();
         const bool isElementInProjection = element && element->in == PickLocation::projection;
         std::vector<SliceRay> rays;
         const auto addRay = [&](PickLocation in, std::size_t slice, const glm::dvec3& position, double scale) {
             if (!scene_.placements[slice].drawn) return;
             placeSection(slice);
-            if (const auto ray = rayThrough(in, slice, position, scale)) rays.push_back(*ray);
+            if (const auto ray = rayThroughSlice(in, slice, position, scale)) rays.push_back(*ray);
         };
         for (std::size_t i = 0; i < scene_.placements.size(); ++i)
             addRay(PickLocation::slice, i, scene_.placements[i].position, scene_.scale);
         std::ranges::sort(rays, {}, &SliceRay::entry);
-        castAll(rays, element && !isElementInProjection ? element->depth : kInf);
+        castRays(rays, element && !isElementInProjection ? element->depth : kInf);
         const auto& focus = scene_.projection.focusSurface;
         if (!found_ && (!element || isElementInProjection) && scene_.projectionPlacement.shown && focus) {
             rays.clear();
             addRay(PickLocation::projection, focus->slice, scene_.projectionPlacement.position, focus->scale);
-            castAll(rays, element ? element->depth : kInf);
+            castRays(rays, element ? element->depth : kInf);
         }
         field_.function->releasePages();
         field_.requireReadable();
@@ -74,12 +74,12 @@ class RayCaster {
 
     // Finds the nearest point of a surface on the rays, at a depth less than `depth`. The rays are sorted by the depth
     // at which they enter the box of the field.
-    void castAll(const std::vector<SliceRay>& rays, double depth) {
+    void castRays(const std::vector<SliceRay>& rays, double depth) {
         nearest_ = depth;
         for (const SliceRay& ray : rays) {
             if (ray.entry >= nearest_) break;
             placeSection(ray.slice);
-            cast(ray);
+            castRay(ray);
         }
     }
 
@@ -89,8 +89,8 @@ class RayCaster {
 
     // Returns the part of the ray in the slice whose section placeSection() has placed last. Returns an empty optional
     // if the ray misses the box of the field. `position` and `scale` map the units of the object to world space.
-    std::optional<SliceRay> rayThrough(PickLocation in, std::size_t slice, const glm::dvec3& position,
-                                       double scale) const {
+    std::optional<SliceRay> rayThroughSlice(PickLocation in, std::size_t slice, const glm::dvec3& position,
+                                            double scale) const {
         SliceRay ray;
         ray.in = in;
         ray.slice = slice;
@@ -120,7 +120,7 @@ class RayCaster {
     }
 
     // Finds the first point of a surface on the ray. Keeps the point if it is nearer than nearest_.
-    void cast(const SliceRay& ray) {
+    void castRay(const SliceRay& ray) {
         // The intended time to evaluate all rays through the slices together, in nanoseconds.
         constexpr double kTime = 1.5e8;
         const double affordable =
@@ -129,8 +129,8 @@ class RayCaster {
         const double length = (ray.exit - ray.entry) * glm::length(ray.direction);
         const auto steps = static_cast<std::size_t>(
             std::clamp(std::ceil(perDiameter * length / (2 * scene_.circumradius)), 2.0, perDiameter));
-        evaluate(ray, ray.entry, ray.exit, steps);
-        const std::vector<float> values = values_;  // a copy, because evaluate() overwrites values_
+        evaluateAlongRay(ray, ray.entry, ray.exit, steps);
+        const std::vector<float> values = values_;  // a copy, because evaluateAlongRay() overwrites values_
         const auto depthAt = [&](std::size_t k) {
             return std::lerp(ray.entry, ray.exit, static_cast<double>(k) / static_cast<double>(steps));
         };
@@ -153,7 +153,7 @@ class RayCaster {
         constexpr std::size_t kSteps = 32, kRounds = 5;
         bool cap = false, entering = false;
         for (std::size_t round = 0; round < kRounds; ++round) {
-            evaluate(ray, from, to, kSteps);
+            evaluateAlongRay(ray, from, to, kSteps);
             const bool before = isInside(values_[0], level);
             std::size_t k = 0;
             while (k + 1 < kSteps && isInside(values_[k + 1], level) == before) ++k;
@@ -180,7 +180,7 @@ class RayCaster {
     }
 
     // Sets values_ to the values of the function at steps + 1 points of the ray between the depths `from` and `to`.
-    void evaluate(const SliceRay& ray, double from, double to, std::size_t steps) {
+    void evaluateAlongRay(const SliceRay& ray, double from, double to, std::size_t steps) {
         points_.clear();
         for (std::size_t k = 0; k <= steps; ++k) {
             const double depth = std::lerp(from, to, static_cast<double>(k) / static_cast<double>(steps));
@@ -245,7 +245,7 @@ std::optional<PickedLevel> pickLevel(const Scene& scene, const fields::Field& fi
     if (element && !isElementInSpace) return std::nullopt;
     if (const auto shown = matrixPointAt(scene, point)) return pickContour(scene, point, *shown);
     if (isClearedOfSlices(scene, point)) return std::nullopt;
-    return RayCaster(scene, field, orientation, point).nearestLevelBefore(element);
+    return RayCaster(scene, field, orientation, point).nearestLevelInFrontOf(element);
 }
 
 }  // namespace oval4d::scene

@@ -77,12 +77,12 @@ struct SectionMatrix {
     /// The contours of a field whose surfaces are shown (see Scene::surfaces); otherwise empty.
     slicing::MatrixContours contours;
     /// The look of the edges and points of a planar section.
-    struct SectionStyle {
+    struct SectionElementLooks {
         std::vector<std::uint32_t> edgeCells;  ///< per edge: the cell that determines the color of the edge
         std::vector<slicing::Visibility> edges, points;
         std::vector<bool> highlighted;  ///< per point: whether the point shows the highlighted element
     };
-    std::array<SectionStyle, slicing::kPlaneAxes.size()> styles;
+    std::array<SectionElementLooks, slicing::kPlaneAxes.size()> styles;
 };
 
 /// The axes of the histogram of a field's values: the ranges that they show, and the levels that are drawn as lines.
@@ -121,7 +121,7 @@ struct Scene : PictureLayout {
     std::vector<std::uint32_t> faceCells;
     slicing::VisibilityBySource visibilities;
     slicing::PartsShowingElement highlight;    ///< the vertices and edges of slices that show the highlighted element
-    slicing::SectionNamePair sectionNames;     ///< the names of the section in the focus slice
+    slicing::SliceAndHullNames sectionNames;   ///< the names of the section in the focus slice
     ObjectProjection projection;               ///< valid if projectionPlacement.shown is true
     SectionMatrix sectionMatrix;               ///< the planar sections in the matrix; valid if matrix.shown is true
     double faceOpacity = style().faceOpacity;  ///< the opacity of the faces of slices, 0 … 1
@@ -134,7 +134,7 @@ struct Scene : PictureLayout {
     SurfaceLook surfaces;                  ///< how SliceSet::surfaces are drawn; empty if no surfaces are drawn
     FogTransferTable fog;                  ///< how SliceSet::fogs are drawn; empty if no fog is drawn
     std::vector<std::uint32_t> fillCells;  ///< for each face of `fill`, the cell that determines the color of the face
-    /// The tones (0 … 255) of the density plot if showsDensity() is true (see DensityPlot::tones()), or of the
+    /// The tones (0 … 255) of the density plot if showsDensityStrip() is true (see DensityPlot::tones()), or of the
     /// histograms of a field if showsHistogram() is true (see slicing::CoordinateValueHistograms::tones()). Otherwise
     /// without meaning.
     std::vector<std::uint8_t> plotTones;
@@ -161,7 +161,7 @@ struct Scene : PictureLayout {
     }
     /// Returns whether the parallel coordinates are drawn as a density strip, because there are too many vertices for
     /// lines.
-    bool showsDensity() const { return look.parts.coordinates && coordinates.isDensityStrip; }
+    bool showsDensityStrip() const { return look.parts.coordinates && coordinates.isDensityStrip; }
     /// Returns whether the histogram of a field's values is shown.
     bool showsHistogram() const { return look.parts.coordinates && coordinates.panel > 0; }
 };

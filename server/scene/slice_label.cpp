@@ -13,7 +13,7 @@ namespace oval4d::scene {
 namespace {
 
 // Returns the distance between neighboring hyperplanes. If these distances differ, returns the least of them.
-double leastDistance(const geometry::Hyperplanes& planes) {
+double leastHyperplaneSpacing(const geometry::Hyperplanes& planes) {
     if (planes.listed.size() < 2) return planes.spacing;
     std::vector<double> sorted = planes.listed;
     std::ranges::sort(sorted);
@@ -49,7 +49,7 @@ std::string withExponentIfSmall(double number, int decimals) {
 }  // namespace
 
 int labelDecimals(const geometry::Hyperplanes& planes) {
-    return static_cast<int>(std::clamp(std::ceil(-std::log10(leastDistance(planes))) + 1, 2.0, 300.0));
+    return static_cast<int>(std::clamp(std::ceil(-std::log10(leastHyperplaneSpacing(planes))) + 1, 2.0, 300.0));
 }
 
 std::string labelNumber(double w, int decimals) {

@@ -16,7 +16,7 @@ Color ValueColorScale::colorOf(double value) const {
     return diverging ? divergingColor(2 * at - 1, scheme) : sequentialColor(at, scheme);
 }
 
-ValueColorScale valueScaleFor(const fields::ValueRange& range, ColorScheme scheme) {
+ValueColorScale valueColorScaleFor(const fields::ValueRange& range, ColorScheme scheme) {
     // 0 divides the range of values into two parts. The scale is diverging only if the shorter part is at least this
     // fraction of the longer part.
     constexpr double kLeastSide = 1.0 / 9;
@@ -57,14 +57,14 @@ void chooseSurfaceLook(const fields::Field& field, const Look& look, const geome
     });
     if (count > 0) {
         out.levels.front().opacity = 1;
-        out.levels.back().caps = look.caps != CapStyle::open;
+        out.levels.back().caps = look.caps != SurfaceCapStyle::open;
     }
     using PointColoring = SurfaceLook::PointColoring;
     out.pointColoring = coloring == Coloring::growth  ? PointColoring::growth
                         : coloring == Coloring::value ? PointColoring::value
                                                       : PointColoring::none;
-    out.capColoring = look.caps == CapStyle::value ? PointColoring::value : PointColoring::none;
-    if (colorsByValue(look)) out.scale = valueScaleFor(field.coloringRange->typicalRange(), out.scheme);
+    out.capColoring = look.caps == SurfaceCapStyle::value ? PointColoring::value : PointColoring::none;
+    if (colorsByValue(look)) out.scale = valueColorScaleFor(field.coloringRange->typicalRange(), out.scheme);
     out.sliceColors.clear();
     if (coloring != Coloring::w) return;
     for (int i = 0; i < planes.count; ++i)

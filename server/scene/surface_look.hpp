@@ -29,11 +29,13 @@ struct ValueColorScale {
 /// Returns the color scale for values in `range`. If 0 lies in the middle four fifths of the range, the scale is
 /// diverging, with gray at 0 and ends at equal distances from 0. Otherwise the scale is sequential, from the least to
 /// the greatest value.
-ValueColorScale valueScaleFor(const fields::ValueRange& range, ColorScheme scheme = ColorScheme::dark);
+ValueColorScale valueColorScaleFor(const fields::ValueRange& range, ColorScheme scheme = ColorScheme::dark);
 
 /// Returns whether the colors of surfaces or caps show values. The values are those of the field's second function or,
 /// if there is none, of its function.
-inline bool colorsByValue(const Look& look) { return look.coloring == Coloring::value || look.caps == CapStyle::value; }
+inline bool colorsByValue(const Look& look) {
+    return look.coloring == Coloring::value || look.caps == SurfaceCapStyle::value;
+}
 
 /// How the surfaces of a field are drawn: which levels are shown, in which colors and with which opacities.
 struct SurfaceLook {
@@ -89,8 +91,8 @@ Color surfaceColor(std::size_t i, std::size_t count, const Look& look);
 
 /// Chooses how the surfaces of `field` are drawn in the slices by `planes`, and writes the result to `out`. The
 /// innermost level is opaque. The other levels are translucent, so that inner levels are visible through them. Only the
-/// outermost level has caps, because its caps cover those of the other levels; with CapStyle::open, no level has caps.
-/// Overwrites `out`.
+/// outermost level has caps, because its caps cover those of the other levels; with SurfaceCapStyle::open, no level has
+/// caps. Overwrites `out`.
 void chooseSurfaceLook(const fields::Field& field, const Look& look, const geometry::Hyperplanes& planes,
                        SurfaceLook& out);
 

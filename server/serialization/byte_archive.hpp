@@ -72,21 +72,21 @@ class ByteReader {
 
     template <BytewiseCopyable T>
     void operator()(T& value) {
-        std::memcpy(&value, take(sizeof value), sizeof value);
+        std::memcpy(&value, takeBytes(sizeof value), sizeof value);
     }
     void operator()(bool& value) {
-        const char byte = *take(1);
+        const char byte = *takeBytes(1);
         if (byte != 0 && byte != 1) throw std::runtime_error("a message between processes is damaged");
         value = byte == 1;
     }
     void operator()(std::string& text) {
         const std::size_t size = readElementCount(1);
-        text.assign(take(size), size);
+        text.assign(takeBytes(size), size);
     }
     template <BytewiseCopyable T>
     void operator()(std::vector<T>& list) {
         list.resize(readElementCount(sizeof(T)));
-        if (!list.empty()) std::memcpy(list.data(), take(list.size() * sizeof(T)), list.size() * sizeof(T));
+        if (!list.empty()) std::memcpy(list.data(), takeBytes(list.size() * sizeof(T)), list.size() * sizeof(T));
     }
     template <Memberwise T>
     void operator()(T& value) {
@@ -109,7 +109,7 @@ class ByteReader {
         return number;
     }
     // Returns a pointer to the next `size` bytes, and skips them. Throws std::runtime_error if too few bytes are left.
-    const char* take(std::size_t size) {
+    const char* takeBytes(std::size_t size) {
         if (size > rest_.size()) throw std::runtime_error("a message between processes is cut short");
         const char* at = rest_.data();
         rest_.remove_prefix(size);

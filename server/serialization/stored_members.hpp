@@ -54,7 +54,7 @@ auto& asBase(Struct& value) {
 
 /// A placeholder for a value of any type, for expressions that are never evaluated.
 template <std::size_t kNumber>
-struct AnyValue {
+struct ConvertibleToAnyType {
     template <typename T>
     operator T() const;  // NOLINT(google-explicit-constructor)
 };
@@ -63,7 +63,7 @@ struct AnyValue {
 /// number of `kNumbers`.
 template <typename Struct, typename Base, std::size_t... kNumbers>
 constexpr bool isInitializableWith(std::index_sequence<kNumbers...> /*numbers*/) {
-    return requires { Struct{std::declval<Base>(), AnyValue<kNumbers>()...}; };
+    return requires { Struct{std::declval<Base>(), ConvertibleToAnyType<kNumbers>()...}; };
 }
 
 /// Satisfied if the aggregate `Struct` has exactly `kCount` members besides the members of `Base`, its only base class.

@@ -19,11 +19,11 @@ CellTypeList sortedUnique(CellTypeList list) {
     return list;
 }
 
-void remove(CellTypeList& from, const CellTypeList& types) {
+void removeCellTypes(CellTypeList& from, const CellTypeList& types) {
     std::erase_if(from, [&](std::uint32_t type) { return std::binary_search(types.begin(), types.end(), type); });
 }
 
-void add(CellTypeList& to, const CellTypeList& types) {
+void addCellTypes(CellTypeList& to, const CellTypeList& types) {
     to.insert(to.end(), types.begin(), types.end());
     to = sortedUnique(std::move(to));
 }
@@ -75,8 +75,8 @@ Result<CellTypeList> findCellTypes(std::string_view text, const geometry::Object
     // prism".
     if (const auto words = text::lowerCaseWords(text); !words.empty()) {
         const auto solid = polytopes::solidNamed(words);
-        if (solid && std::holds_alternative<polytopes::Solid>(*solid)) {
-            const std::string name = polytopes::nameOf(std::get<polytopes::Solid>(*solid));
+        if (solid && std::holds_alternative<polytopes::SolidDescription>(*solid)) {
+            const std::string name = polytopes::nameOf(std::get<polytopes::SolidDescription>(*solid));
             if (name != text) {
                 if (auto types = findCellTypes(name, object)) return types;
             }
@@ -96,21 +96,21 @@ Result<CellTypeList> findCellTypes(std::string_view text, const geometry::Object
     return *numbers;
 }
 
-scene::CellTypeFilter hide(scene::CellTypeFilter filter, const CellTypeList& changed) {
-    remove(filter.faded, changed);
-    add(filter.hidden, changed);
+scene::CellTypeFilter hideCellTypes(scene::CellTypeFilter filter, const CellTypeList& changed) {
+    removeCellTypes(filter.faded, changed);
+    addCellTypes(filter.hidden, changed);
     return filter;
 }
 
-scene::CellTypeFilter fade(scene::CellTypeFilter filter, const CellTypeList& changed) {
-    remove(filter.hidden, changed);
-    add(filter.faded, changed);
+scene::CellTypeFilter fadeCellTypes(scene::CellTypeFilter filter, const CellTypeList& changed) {
+    removeCellTypes(filter.hidden, changed);
+    addCellTypes(filter.faded, changed);
     return filter;
 }
 
-scene::CellTypeFilter reveal(scene::CellTypeFilter filter, const CellTypeList& changed) {
-    remove(filter.hidden, changed);
-    remove(filter.faded, changed);
+scene::CellTypeFilter revealCellTypes(scene::CellTypeFilter filter, const CellTypeList& changed) {
+    removeCellTypes(filter.hidden, changed);
+    removeCellTypes(filter.faded, changed);
     return filter;
 }
 
@@ -122,11 +122,11 @@ Result<std::monostate> applyCellTypeVisibility(State& state, const ChangeSetting
     scene::CellTypeFilter& filter = state.look.cellTypes;
     if (set.faded) {
         filter.faded.clear();
-        filter = fade(std::move(filter), sortedUnique(*set.faded));
+        filter = fadeCellTypes(std::move(filter), sortedUnique(*set.faded));
     }
     if (set.hidden) {
         filter.hidden.clear();
-        filter = hide(std::move(filter), sortedUnique(*set.hidden));
+        filter = hideCellTypes(std::move(filter), sortedUnique(*set.hidden));
     }
     return std::monostate{};
 }

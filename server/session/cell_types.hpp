@@ -23,11 +23,11 @@ Result<CellTypeList> parseCellTypes(std::string_view text);
 /// `out_of_range` if the object has no cells, or no cell type with one of the numbers.
 Result<CellTypeList> findCellTypes(std::string_view text, const geometry::ObjectInfo& object);
 
-/// hide() returns `filter`, changed so that the cell types in `changed` are hidden. fade() makes these cell types faded
-/// (translucent), and reveal() makes them fully visible. `changed` must be sorted.
-scene::CellTypeFilter hide(scene::CellTypeFilter filter, const CellTypeList& changed);
-scene::CellTypeFilter fade(scene::CellTypeFilter filter, const CellTypeList& changed);
-scene::CellTypeFilter reveal(scene::CellTypeFilter filter, const CellTypeList& changed);
+/// hideCellTypes() returns `filter`, changed so that the cell types in `changed` are hidden. fadeCellTypes() makes
+/// these cell types faded (translucent), and revealCellTypes() makes them fully visible. `changed` must be sorted.
+scene::CellTypeFilter hideCellTypes(scene::CellTypeFilter filter, const CellTypeList& changed);
+scene::CellTypeFilter fadeCellTypes(scene::CellTypeFilter filter, const CellTypeList& changed);
+scene::CellTypeFilter revealCellTypes(scene::CellTypeFilter filter, const CellTypeList& changed);
 
 /// Replaces the lists of hidden and faded cell types in `state` by the lists in `set`. If `set` has only one of the two
 /// lists, its cell types are removed from the other list of `state`. A cell type in both lists of `set` becomes hidden.

@@ -108,15 +108,15 @@ struct LoadObject {
 };
 /// A member of LoadObject that says how to read an object, and the name of this member in messages and in the queries
 /// of uploads.
-struct LoadTextMember {
+struct NamedLoadOption {
     std::string_view name;
     std::string LoadObject::* member;
 };
-inline constexpr auto kLoadTexts = std::to_array<LoadTextMember>({{"format", &LoadObject::format},
-                                                                  {"axes", &LoadObject::axes},
-                                                                  {"variable", &LoadObject::variable},
-                                                                  {"values", &LoadObject::secondFormula},
-                                                                  {"values_variable", &LoadObject::secondVariable}});
+inline constexpr auto kLoadTexts = std::to_array<NamedLoadOption>({{"format", &LoadObject::format},
+                                                                   {"axes", &LoadObject::axes},
+                                                                   {"variable", &LoadObject::variable},
+                                                                   {"values", &LoadObject::secondFormula},
+                                                                   {"values_variable", &LoadObject::secondVariable}});
 
 /// The new values of the plain settings: those that a command only stores (see forEachSetting() in setting_table.hpp).
 /// The names are those on the command line.

@@ -200,13 +200,13 @@ Result<CellTypeList> selectedCellTypes(std::string_view rest, const State& state
     return findCellTypes(rest, slicing::infoOf(state.object));
 }
 
-// Parses the arguments of hide, fade and show. `change` is the function of the command: hide(), fade() or reveal().
-// Without arguments, show shows all cells.
+// Parses the arguments of hide, fade and show. `change` is the function of the command: hideCellTypes(),
+// fadeCellTypes() or revealCellTypes(). Without arguments, show shows all cells.
 template <scene::CellTypeFilter (*change)(scene::CellTypeFilter, const CellTypeList&)>
 Result<Command> parseCellTypesCommand(std::string_view rest, const Words& /*words*/, const State& state) {
     ChangeSettings set;
     scene::CellTypeFilter filter;
-    if (change != reveal || !rest.empty()) {
+    if (change != revealCellTypes || !rest.empty()) {
         const auto named = selectedCellTypes(rest, state);
         if (!named) return named.error();
         filter = change(state.look.cellTypes, *named);
@@ -259,9 +259,9 @@ constexpr auto kVerbs = std::to_array<CommandLineVerb>(
      {"color", [](std::string_view rest, const Words&, const State&) { return makeSetCommand("color", rest); }},
      {"project", [](std::string_view rest, const Words&, const State&) { return makeSetCommand("projection", rest); }},
      {"highlight", parseHighlightCommand},
-     {"hide", parseCellTypesCommand<hide>},
-     {"fade", parseCellTypesCommand<fade>},
-     {"show", parseCellTypesCommand<reveal>},
+     {"hide", parseCellTypesCommand<hideCellTypes>},
+     {"fade", parseCellTypesCommand<fadeCellTypes>},
+     {"show", parseCellTypesCommand<revealCellTypes>},
      {"formula", parseFormulaCommand},
      {"region", parseRegionCommand},
      {"fog", [](std::string_view rest, const Words&, const State&) { return makeSetCommand("fog", rest); }},

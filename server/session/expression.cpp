@@ -267,7 +267,7 @@ bool isAngleUnit(std::string_view word) {
     return word == "deg" || word == "rad" || std::ranges::find(kDegreeSigns, word) != kDegreeSigns.end();
 }
 
-Result<double> evaluate(std::string_view text) {
+Result<double> evaluateNumber(std::string_view text) {
     const auto term = evaluateExpression(text, false);
     if (!term) return term.error();
     return term->value;
@@ -277,7 +277,7 @@ Result<std::vector<double>> evaluateList(std::string_view text) {
     std::vector<double> list;
     while (true) {
         const std::size_t comma = text.find(',');
-        const auto value = evaluate(text.substr(0, comma));
+        const auto value = evaluateNumber(text.substr(0, comma));
         if (!value) return value.error();
         list.push_back(*value);
         if (comma == std::string_view::npos) return list;

@@ -14,9 +14,9 @@ namespace oval4d::session {
 /// (which converts degrees to radians). Only the arguments of functions may have units of angles. Error:
 /// `bad_expression` for a syntax error, for a unit elsewhere, or if the value is not finite. The message states the
 /// position of the syntax error or the unit.
-Result<double> evaluate(std::string_view text);
+Result<double> evaluateNumber(std::string_view text);
 
-/// Evaluates one or more expressions that are not angles, separated by commas. Errors: the errors of evaluate().
+/// Evaluates one or more expressions that are not angles, separated by commas. Errors: the errors of evaluateNumber().
 Result<std::vector<double>> evaluateList(std::string_view text);
 
 /// Returns whether a word is a unit that evaluateAngle() reads, such as "deg" or "°".

@@ -22,14 +22,14 @@ using FieldsByOriginal = std::map<const void*, slicing::Object>;
 // If `state` shows the field `before`, replaces this field by `after` (see replaceField()) and returns true. Otherwise
 // returns false. `images` contains the transformed fields made so far, and gets those that are missing, so that states
 // with the same frame of reference share a field.
-bool replaceInState(State& state, const slicing::Object& before, const slicing::Object& after, FieldReplacement how,
-                    FieldsByOriginal& images) {
+bool replaceFieldInState(State& state, const slicing::Object& before, const slicing::Object& after,
+                         FieldReplacementKind how, FieldsByOriginal& images) {
     if (state.source != before) return false;
     const auto [image, isNew] = images.try_emplace(slicing::identityOf(state.object));
     if (isNew) image->second = slicing::transformedTo(after, state.referenceFrame);
     slicing::Object object = image->second;
     HyperplaneSettings& slices = state.slices;
-    if (how == FieldReplacement::longer) {
+    if (how == FieldReplacementKind::longer) {
         const double ratio = slicing::initialSliceExtent(object) / slicing::initialSliceExtent(state.object);
         slices.spacing *= ratio;
         slices.offset *= ratio;
@@ -50,11 +50,12 @@ bool replaceInState(State& state, const slicing::Object& before, const slicing::
 
 }  // namespace
 
-void replaceField(Session& session, const slicing::Object& before, const slicing::Object& after, FieldReplacement how) {
+void replaceField(Session& session, const slicing::Object& before, const slicing::Object& after,
+                  FieldReplacementKind how) {
     FieldsByOriginal images;
-    for (State& state : session.undoSteps) replaceInState(state, before, after, how, images);
-    for (State& state : session.redoSteps) replaceInState(state, before, after, how, images);
-    if (replaceInState(session.current, before, after, how, images)) ++session.revision;
+    for (State& state : session.undoSteps) replaceFieldInState(state, before, after, how, images);
+    for (State& state : session.redoSteps) replaceFieldInState(state, before, after, how, images);
+    if (replaceFieldInState(session.current, before, after, how, images)) ++session.revision;
     for (auto& [name, loaded] : session.loaded) {
         if (loaded == before) loaded = after;
     }

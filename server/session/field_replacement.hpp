@@ -10,7 +10,7 @@
 namespace oval4d::session {
 
 /// The difference between a new field and the field that it replaces.
-enum class FieldReplacement : std::uint8_t {
+enum class FieldReplacementKind : std::uint8_t {
     longer,  ///< the new field has more time steps
     /// The new field is a finer resolution level of the same image, in nearly the same box.
     finer
@@ -23,7 +23,8 @@ enum class FieldReplacement : std::uint8_t {
 /// - For a finer field, the spacing stays spanningSpacing() if it was that before.
 /// - Spacing, offset and focus point are clamped to their bounds.
 /// - If the cell types of the domain change, all its cells become visible.
-void replaceField(Session& session, const slicing::Object& before, const slicing::Object& after, FieldReplacement how);
+void replaceField(Session& session, const slicing::Object& before, const slicing::Object& after,
+                  FieldReplacementKind how);
 
 /// Returns the command that loads the next finer level of the multiscale image that the state shows. Returns an empty
 /// optional if no finer level is to be loaded.

@@ -118,7 +118,7 @@ void amendUndoStep(Session& session, State next, const Limits& limits) {
     replaceCurrentState(session, std::move(next), limits);
 }
 
-void forgetOlderHalf(Session& session) {
+void forgetOlderUndoSteps(Session& session) {
     const auto half = static_cast<std::ptrdiff_t>((session.undoSteps.size() + 1) / 2);
     session.undoSteps.erase(session.undoSteps.begin(), session.undoSteps.begin() + half);
 }

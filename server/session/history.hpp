@@ -32,7 +32,7 @@ void amendUndoStep(Session& session, State next, const Limits& limits);
 const State* stateBeforeAmendableStep(const Session& session);
 
 /// Removes the older half of the undo steps to free memory.
-void forgetOlderHalf(Session& session);
+void forgetOlderUndoSteps(Session& session);
 
 /// undo() undoes one step, and redo() redoes one. Both leave the camera where it is. Error: `nothing_to_undo` if there
 /// is no step that differs from the current state in more than the camera.

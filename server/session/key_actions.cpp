@@ -23,7 +23,7 @@ using VoidResult = Result<std::monostate>;
 
 constexpr double kSpacingFactor = 1.1;
 
-void moveFocus(State& state, int to) {
+void moveFocusToSlice(State& state, int to) {
     state.slices.focus = std::clamp(to, -kMaxFocus, kMaxFocus);
     state.playing = false;
 }
@@ -31,7 +31,7 @@ void moveFocus(State& state, int to) {
 // Returns the indices n (see HyperplaneSettings) of the first and the last hyperplane that intersect the object. For a
 // point cloud, whose slices are thick, returns the indices of the hyperplanes nearest to the points with the least and
 // the greatest w.
-std::pair<int, int> nonemptySlices(const State& state) {
+std::pair<int, int> firstAndLastNonemptySlice(const State& state) {
     const auto [least, most] = slicing::rangeOfW(state.object, state.orientation);
     const double slack = slicing::kOnPlaneTolerance * slicing::infoOf(state.object).circumradius;
     const auto [count, spacing, focus, offset] = state.slices;
@@ -58,7 +58,7 @@ void scaleSpacing(State& state, double factor) {
     state.slices.spacing = std::clamp(state.slices.spacing * factor, kMinSpacing * radius, kMaxSpacing * radius);
 }
 
-VoidResult showNeighbor(ActionContext& c, int by) {
+VoidResult showNeighborObject(ActionContext& c, int by) {
     auto object = neighborInObjectList(c.state.source, by, c.loaded, c.loader);
     if (!object) return object.error();
     return replaceObject(c.state, std::move(*object), c.loader);
@@ -110,14 +110,16 @@ std::vector<KeyAction> individualActions() {
              return std::monostate{};
          }},
         {"play", succeedAfter<[](ActionContext& c) { c.state.playing = !c.state.playing; }>},
-        {"focus_right", succeedAfter<[](ActionContext& c) { moveFocus(c.state, c.state.slices.focus + 1); }>},
-        {"focus_left", succeedAfter<[](ActionContext& c) { moveFocus(c.state, c.state.slices.focus - 1); }>},
+        {"focus_right", succeedAfter<[](ActionContext& c) { moveFocusToSlice(c.state, c.state.slices.focus + 1); }>},
+        {"focus_left", succeedAfter<[](ActionContext& c) { moveFocusToSlice(c.state, c.state.slices.focus - 1); }>},
         {"focus_zero", succeedAfter<[](ActionContext& c) {
-             moveFocus(c.state, 0);
+             moveFocusToSlice(c.state, 0);
              c.state.slices.offset = 0;
          }>},
-        {"focus_first", succeedAfter<[](ActionContext& c) { moveFocus(c.state, nonemptySlices(c.state).first); }>},
-        {"focus_last", succeedAfter<[](ActionContext& c) { moveFocus(c.state, nonemptySlices(c.state).second); }>},
+        {"focus_first",
+         succeedAfter<[](ActionContext& c) { moveFocusToSlice(c.state, firstAndLastNonemptySlice(c.state).first); }>},
+        {"focus_last",
+         succeedAfter<[](ActionContext& c) { moveFocusToSlice(c.state, firstAndLastNonemptySlice(c.state).second); }>},
         {"vertex_next", [](ActionContext& c) { return moveFocusToNextCritical(c.state, true, c.loader); }, nullptr,
          true},
         {"vertex_previous", [](ActionContext& c) { return moveFocusToNextCritical(c.state, false, c.loader); }, nullptr,
@@ -129,18 +131,18 @@ std::vector<KeyAction> individualActions() {
         {"slices_more", succeedAfter<[](ActionContext& c) {
              if (c.state.slices.count + 2 <= c.limits.maxSlices) setSliceCount(c.state, c.state.slices.count + 2);
          }>},
-        {"polytope_next", [](ActionContext& c) { return showNeighbor(c, 1); }, nullptr, true},
-        {"polytope_previous", [](ActionContext& c) { return showNeighbor(c, -1); }, nullptr, true},
+        {"polytope_next", [](ActionContext& c) { return showNeighborObject(c, 1); }, nullptr, true},
+        {"polytope_previous", [](ActionContext& c) { return showNeighborObject(c, -1); }, nullptr, true},
         {"view", succeedAfter<[](ActionContext& c) { toggleView(c.state, scene::View::single); }>},
         {"undo", nullptr, undo},
         {"redo", nullptr, redo},
     };
 }
 
-// Adds to `actions` those that increase and decrease the number of a setting by a step (see KeySteps); none if no keys
-// change it.
+// Adds to `actions` those that increase and decrease the number of a setting by a step (see KeyStepSize); none if no
+// keys change it.
 template <typename Row>
-void addSteps(const Row& setting, std::vector<KeyAction>& actions) {
+void addStepActions(const Row& setting, std::vector<KeyAction>& actions) {
     const auto add = [&](const std::string& ending, auto next) {
         actions.push_back({std::string(setting.name.text) + ending, [setting, next](ActionContext& c) -> VoidResult {
                                double& value = setting.ofState(c.state);
@@ -189,7 +191,7 @@ std::vector<KeyAction> allActions() {
                                }});
         }
     }
-    for (const scene::ViewRow& row : scene::kViews) {
+    for (const scene::ViewTableRow& row : scene::kViews) {
         // The view `oval` has no action of its own, because the actions of all other views lead back to it. The action
         // "view" of individualActions() toggles the view `single`.
         if (row.value == scene::View::oval || row.value == scene::View::single) continue;
@@ -199,7 +201,7 @@ std::vector<KeyAction> allActions() {
                            }});
     }
     forEachSetting([&]<typename Row>(const Row& setting) {
-        if constexpr (Row::kHasRange) addSteps(setting, actions);
+        if constexpr (Row::kHasRange) addStepActions(setting, actions);
         if constexpr (Row::kIsInState) {
             using SettingValueType = std::remove_cvref_t<decltype(setting.ofState(std::declval<State&>()))>;
             if constexpr (text::HasChoices<SettingValueType> && !std::is_same_v<SettingValueType, scene::View>) {

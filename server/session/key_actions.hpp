@@ -39,7 +39,7 @@ struct KeyAction {
 /// - for each view except the oval, an action that toggles between this view and the oval;
 /// - for each other setting that is an enumeration, an action with the name of the setting that selects the next
 ///   value;
-/// - for each setting with KeySteps, two actions that increase and decrease the number by a step.
+/// - for each setting with KeyStepSize, two actions that increase and decrease the number by a step.
 std::span<const KeyAction> keyActions();
 
 }  // namespace oval4d::session

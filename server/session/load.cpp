@@ -63,7 +63,8 @@ Error errorOf(const FileError& error) {
 }
 
 // Appends a warning if the object was far from the origin of its file, so that another point became its origin.
-void warnOfMove(const geometry::Centering& wanted, const glm::dvec4& originInFile, std::vector<std::string>& warnings) {
+void warnOfNewOrigin(const geometry::Centering& wanted, const glm::dvec4& originInFile,
+                     std::vector<std::string>& warnings) {
     if (wanted.choice != geometry::Centering::OriginChoice::automatic || originInFile == glm::dvec4(0)) return;
     std::string center;
     for (int axis = 0; axis < 4; ++axis) center += (axis == 0 ? "" : ", ") + text::roundedDecimal(originInFile[axis]);
@@ -77,7 +78,7 @@ Result<ObjectWithWarnings> objectFromImport(std::variant<polytopes::ImportedPoly
                                             const LoadObject& load) {
     if (const auto* error = std::get_if<FileError>(&imported)) return errorOf(*error);
     auto& [polytope, warnings] = std::get<polytopes::ImportedPolytope>(imported);
-    warnOfMove(load.center, polytope.originInFile, warnings);
+    warnOfNewOrigin(load.center, polytope.originInFile, warnings);
     return ObjectWithWarnings{std::make_shared<const polytopes::Polytope>(std::move(polytope)), std::move(warnings)};
 }
 
@@ -115,7 +116,7 @@ ObjectWithWarnings readSurface(std::string_view text, const LoadObject& load, co
         if (edges != 0 && edges != surface.edges.size())
             warnings.push_back("the file states " + std::to_string(edges) + " edges, but its 2-faces have " +
                                std::to_string(surface.edges.size()));
-        warnOfMove(load.center, center, warnings);
+        warnOfNewOrigin(load.center, center, warnings);
         return {std::make_shared<const geometry::SurfaceMesh>(std::move(surface)), std::move(warnings)};
     } catch (const geometry::InvalidSurface& invalid) {
         if (shortRecord) throw FileError(*shortRecord);
@@ -162,7 +163,7 @@ Result<ObjectWithWarnings> readCloud(const LoadObject& load, const Limits& limit
         for (glm::dvec4& point : points) point -= center;
         auto cloud = geometry::makePointCloud(load.name, std::move(points), std::move(radii));
         cloud.originInFile = center;
-        warnOfMove(load.center, center, warnings);
+        warnOfNewOrigin(load.center, center, warnings);
         return ObjectWithWarnings{std::make_shared<const geometry::PointCloud>(std::move(cloud)), std::move(warnings)};
     } catch (const FileError& error) {
         return errorOf(error);
@@ -176,7 +177,7 @@ Result<ObjectWithWarnings> readFormulaText(const LoadObject& load, const Limits&
 }
 
 // Returns the bytes of the file that `load` specifies: the file `load.file`, or `load.data` decoded from Base64.
-Result<fields::FileContents> contentsOf(const LoadObject& load) {
+Result<fields::FileContents> fileContentsOf(const LoadObject& load) {
     if (load.file) return fields::FileContents::map(load.file->descriptor());
     const std::string& text = load.data;
     std::vector<std::byte> bytes(text.size() / 4 * 3 + 3);
@@ -192,9 +193,9 @@ Result<fields::FileContents> contentsOf(const LoadObject& load) {
 }
 
 Result<ObjectWithWarnings> readArrayFile(const LoadObject& load, const Limits& limits) {
-    const auto file = contentsOf(load);
+    const auto file = fileContentsOf(load);
     if (!file) return file.error();
-    return readArray(*file, load.name, optionsForReading(load, limits), {load.secondFormula, load.secondVariable});
+    return readArray(*file, load.name, fieldReadOptionsFor(load, limits), {load.secondFormula, load.secondVariable});
 }
 
 // Returns an error if a maximum of the box is less than the minimum. The error message calls the box `name`.
@@ -220,7 +221,7 @@ std::optional<Error> checkBox(const fields::Box& box, const fields::Shape& shape
 
 // Returns a warning for each axis along which the box of a formula is so far from 0 that the surfaces get steps.
 // Functions take coordinates as 32-bit floats, and the distance between neighboring floats grows with their magnitude.
-std::vector<std::string> warningsOfRounding(const fields::Box& box) {
+std::vector<std::string> coordinateRoundingWarnings(const fields::Box& box) {
     // The least number of neighboring floats in the box's range along an axis for which there is no warning.
     constexpr double kFewestFloats = 1000;
     std::vector<std::string> warnings;
@@ -282,7 +283,7 @@ constexpr auto kFormats = std::to_array<LoadFormatRow>({
 });
 constexpr LoadFormatRow kArrayFormat{"", "", readArrayFile, false};
 
-const LoadFormatRow* formatNamed(std::string_view name) {
+const LoadFormatRow* loadFormatNamed(std::string_view name) {
     if (isArrayFormat(name)) return &kArrayFormat;
     const auto row = std::ranges::find(kFormats, name, &LoadFormatRow::name);
     return row == kFormats.end() ? nullptr : &*row;
@@ -307,9 +308,9 @@ Result<ObjectWithWarnings> readObject(const LoadObject& load, const Limits& limi
             if (!file) return file.error();
             files.push_back(std::move(*file));
         }
-        return readSeries(files, load, optionsForReading(load, limits));
+        return readSeries(files, load, fieldReadOptionsFor(load, limits));
     }
-    const LoadFormatRow* row = formatNamed(load.format);
+    const LoadFormatRow* row = loadFormatNamed(load.format);
     return row == nullptr ? Result<ObjectWithWarnings>(unsupportedFormatError(load.format)) : row->read(load, limits);
 }
 
@@ -332,7 +333,8 @@ Result<ObjectWithWarnings> readFormula(const LoadObject& load) {
     if (auto error = checkBox(box, kAnyNumberOfSamples)) return std::move(*error);
     auto field = fields::fieldFromFormula(load.name, load.data, box, load.secondFormula);
     if (!field) return field.error();
-    return ObjectWithWarnings{std::make_shared<const fields::Field>(std::move(*field)), warningsOfRounding(box)};
+    return ObjectWithWarnings{std::make_shared<const fields::Field>(std::move(*field)),
+                              coordinateRoundingWarnings(box)};
 }
 
 Result<ObjectWithWarnings> readArray(const fields::FileContents& file, const std::string& name,
@@ -345,8 +347,8 @@ Result<ObjectWithWarnings> readZarr(const fields::FolderFileReader& folder, cons
     return makeFieldFrom([&](const auto& of) { return fields::readZarr(folder, of); }, name, options, second);
 }
 
-fields::FieldReadOptions optionsForReading(const LoadObject& load, const Limits& limits,
-                                           fields::MappedFileMaker newFile) {
+fields::FieldReadOptions fieldReadOptionsFor(const LoadObject& load, const Limits& limits,
+                                             fields::MappedFileMaker newFile) {
     const std::size_t most = limits.maxFieldBytes / sizeof(float);
     fields::FieldReadOptions options{load.axes, load.box, load.variable, most, most};
     if (newFile) options.maxSamples = fields::kMaxSamples;
@@ -396,7 +398,7 @@ std::optional<Error> checkLoad(const LoadObject& load, const Limits& limits) {
     // A Zarr folder is recognized by its files, whatever format the command names.
     constexpr std::string_view kZarr = "zarr";
     const bool detected = load.isArrayInFiles() && (load.format.empty() || load.format == kZarr);
-    if (!detected && formatNamed(load.format) == nullptr) return unsupportedFormatError(load.format);
+    if (!detected && loadFormatNamed(load.format) == nullptr) return unsupportedFormatError(load.format);
     const bool array = detected || isArrayFormat(load.format);
     const auto refused = [&](const std::string& what) {
         return Error{ErrorCode::bad_message, what + ", not the format " + text::inQuotes(load.format)};
@@ -430,7 +432,7 @@ std::vector<std::string_view> arrayFormatNames() {
 }
 
 bool buildsHull(std::string_view format) {
-    const LoadFormatRow* row = formatNamed(format);
+    const LoadFormatRow* row = loadFormatNamed(format);
     return row != nullptr && row->buildsHull;
 }
 

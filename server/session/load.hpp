@@ -56,8 +56,8 @@ Result<ObjectWithWarnings> readArray(const fields::FileContents& file, const std
 /// most Limits::maxFieldBytes. If `newFile` is given, larger arrays are allowed: their samples stay in the file, or are
 /// written to a file that `newFile` makes. From a multiscale image, the options select the level `load.finer`; without
 /// `load.finer`, a level of at most Limits::maxFirstLevelBytes.
-fields::FieldReadOptions optionsForReading(const LoadObject& load, const Limits& limits,
-                                           fields::MappedFileMaker newFile = {});
+fields::FieldReadOptions fieldReadOptionsFor(const LoadObject& load, const Limits& limits,
+                                             fields::MappedFileMaker newFile = {});
 
 /// Reads an array, or the region of an array that the options select, from a Zarr folder. Errors: the errors of
 /// fields::readZarr() and readArray(); `out_of_range` if the region has a maximum less than its minimum.

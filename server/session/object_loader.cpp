@@ -42,7 +42,7 @@ ObjectLoader::ObjectLoader(const Limits& limits, polytopes::PolytopeCache& cache
 
 Result<slicing::Object> ObjectLoader::build(const polytopes::PolytopeDesign& design) {
     try {
-        return slicing::Object(cache_->get(design));
+        return slicing::Object(cache_->findOrBuild(design));
     } catch (const polytopes::TooLarge& fault) {
         return Error{ErrorCode::too_large, "the " + design.name + " cannot be built: " + fault.what()};
     } catch (const std::invalid_argument& fault) {
@@ -151,7 +151,7 @@ void ObjectLoader::completePending(std::stop_token stop) {
     pending_ = std::monostate{};
 }
 
-std::size_t ObjectLoader::memoryNeeded() const {
+std::size_t ObjectLoader::estimatedMemory() const {
     constexpr std::size_t kFixed = 64U << 10U;
     // The memory per byte of a text file: for its numbers, a copy of them for repairs, the polytope, and its
     // incidences.

@@ -104,7 +104,7 @@ class ObjectLoader {
     /// Returns the estimated memory, in bytes, of completePending() and its result; 0 if nothing is pending. The
     /// estimate may be too low for an array in a compressed file. After completePending(), loadedObjectMemory() returns
     /// the actual memory.
-    std::size_t memoryNeeded() const;
+    std::size_t estimatedMemory() const;
     /// Returns the memory, in bytes, of the object that was read from a file and of the array that was extended. Does
     /// not count polytopes that were built, nor objects that were transformed.
     std::size_t loadedObjectMemory() const;

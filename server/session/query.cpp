@@ -47,12 +47,12 @@ Result<QueryParameters> objectParameters(const slicing::Object& object) {
 
 // Returns the rotation from the initial orientation as text, such as "xy,zw:0.1,0.2"; an empty string for no rotation.
 std::string rotationText(const geometry::Rotation& orientation) {
-    const geometry::RotationAngles turn = orientation.turn();
+    const geometry::RotationAngles smallestAngles = orientation.smallestAngles();
     std::string planes;
     std::vector<double> angles;
-    for (const geometry::Plane plane : turn.planes()) {
-        planes += (planes.empty() ? "" : ",") + std::string(geometry::name(plane));
-        angles.push_back(*turn[plane]);
+    for (const geometry::Plane plane : smallestAngles.planes()) {
+        planes += (planes.empty() ? "" : ",") + std::string(geometry::planeName(plane));
+        angles.push_back(*smallestAngles[plane]);
     }
     return planes.empty() ? "" : planes + ":" + numberListText(angles);
 }
@@ -69,7 +69,7 @@ Result<std::array<double, Count>> parseNumbers(std::string_view name, std::strin
             return Error{ErrorCode::bad_expression,
                          std::string(name) + " must be " + std::string(form) + ", not " + text::inQuotes(text)};
         }
-        const auto value = evaluate(rest.substr(0, comma));
+        const auto value = evaluateNumber(rest.substr(0, comma));
         if (!value) return Error{value.error().code, std::string(name) + ": " + value.error().message};
         numbers.at(i) = *value;
         rest.remove_prefix(std::min(comma, rest.size() - 1) + 1);

@@ -26,11 +26,11 @@ inline constexpr auto kFileParameters =
 inline constexpr std::string_view kField = "field";
 
 /// Parses a box from the ranges of x, y, z and w: eight numbers or expressions, separated by commas. Error messages
-/// call the box `name`. Errors: `bad_expression`, and the errors of evaluate().
+/// call the box `name`. Errors: `bad_expression`, and the errors of evaluateNumber().
 Result<fields::Box> parseBox(std::string_view text, std::string_view name = "box");
 
 /// Parses the point about which an object turns: "object", "origin", or four numbers or expressions, separated by
-/// commas. Errors: `bad_expression`, and the errors of evaluate().
+/// commas. Errors: `bad_expression`, and the errors of evaluateNumber().
 Result<geometry::Centering> parseCentering(std::string_view written);
 
 /// Returns the state that a query describes. Names in the query may be: names that parseSetting() accepts; "field",

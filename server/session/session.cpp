@@ -44,7 +44,7 @@ std::optional<geometry::RotationAngles> turnOfStep(const State& before, const St
         const geometry::RotationAngles sum = *current.lastTurn + *next.lastTurn;
         if (checkTurn(sum) && (geometry::Rotation(sum) * whole.inverse()).largerAngle() < kSame) return sum;
     }
-    return whole.turn();
+    return whole.smallestAngles();
 }
 
 // Moves the focus to and fro along w for `seconds` seconds. State::playing must be true.
@@ -201,7 +201,7 @@ class CommandApplier {
         const auto binding = bindingOf(key, pending);
         if (!binding) return binding.error();
         session_.pendingKey = std::move(pending);  // a failed action ends the sequence of keys, too
-        return *binding ? press(**binding) : VoidResult(std::monostate{});
+        return *binding ? runKeyAction(**binding) : VoidResult(std::monostate{});
     }
     VoidResult operator()(const Rotate& command) {
         if (VoidResult valid = checkTurn(command.turn); !valid) return valid;
@@ -266,11 +266,11 @@ class CommandApplier {
         const auto extended = outcome_.extendedField(command);
         if (!extended) return extended.error();
         const slicing::Object before = session_.loaded.at(command.name);
-        replaceField(session_, before, *extended, FieldReplacement::longer);
+        replaceField(session_, before, *extended, FieldReplacementKind::longer);
         return std::monostate{};
     }
 
-    VoidResult press(const KeyBinding& binding) {
+    VoidResult runKeyAction(const KeyBinding& binding) {
         if (binding.action->onSession != nullptr) return binding.action->onSession(session_);
         return storeOutcome(outcomeOf(binding), false);
     }

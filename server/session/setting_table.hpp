@@ -30,7 +30,7 @@ inline constexpr std::string_view kRadians = " radians";
 struct AnyValueRule {};
 /// The steps by which keys change the number of a setting called NAME, within its range. By default, no keys change the
 /// number.
-struct KeySteps {
+struct KeyStepSize {
     /// If not 0, the setting has the actions NAME_larger and NAME_smaller, and its number must be positive. With f =
     /// 2^(1/perDoubling), an action rounds the number to the nearest power of f, and then multiplies or divides it by
     /// f. So each action exactly undoes the other, and `perDoubling` steps lead from 1 to exactly 2.
@@ -43,7 +43,7 @@ struct NumberRangeRule {
     std::string_view what;  ///< the subject of the error message, such as "the eye"
     geometry::NumberRange range;
     std::string_view unit{};  ///< the unit that the error message states after the range, such as " circumradii"
-    KeySteps keys = {};
+    KeyStepSize keys = {};
 };
 /// The rule of a setting that applySet() checks and changes with code of its own, not by a rule in the table.
 struct CheckedByApplySetRule {};
@@ -54,8 +54,8 @@ struct NoStateValue {};
 
 /// The occasion on which a setting returns to its initial value.
 enum class ResetOccasion : std::uint8_t {
-    never,  ///< never (but a new object of another size changes the setting `spacing` in proportion)
-    by_another_object,           ///< when another object is shown, because the value belongs to the old object
+    never,              ///< never (but a new object of another size changes the setting `spacing` in proportion)
+    by_another_object,  ///< when another object is shown, because the value belongs to the old object
     by_reset_or_another_object,  ///< when another object is shown, and after the command `reset`
 };
 

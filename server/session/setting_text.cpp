@@ -32,13 +32,13 @@ struct SettingValueParser {
     bool isAngle = false;  // whether the value is an angle, which may have a unit
 
     Result<std::monostate> operator()(std::optional<double>& into) const {
-        const auto value = isAngle ? evaluateAngle(text) : evaluate(text);
+        const auto value = isAngle ? evaluateAngle(text) : evaluateNumber(text);
         if (!value) return makeError(value.error().code, std::string(name) + ": " + value.error().message);
         into = *value;
         return std::monostate{};
     }
     Result<std::monostate> operator()(std::optional<int>& into) const {
-        const auto value = evaluate(text);
+        const auto value = evaluateNumber(text);
         if (!value) return makeError(value.error().code, std::string(name) + ": " + value.error().message);
         constexpr double kMaxMagnitude = 1'000'000'000;
         if (*value != std::trunc(*value) || std::abs(*value) > kMaxMagnitude) {
@@ -117,7 +117,7 @@ struct SettingValueParser {
         const std::string_view opacity =
             word.substr(first + 1, second == std::string_view::npos ? second : second - first - 1);
         for (const auto& [part, into] : {std::pair(word.substr(0, first), &point.value), {opacity, &point.opacity}}) {
-            const auto value = evaluate(part);
+            const auto value = evaluateNumber(part);
             if (!value) return makeError(value.error().code, std::string(name) + ": " + value.error().message);
             *into = *value;
         }

@@ -409,7 +409,7 @@ void CellComplexSlicer::traceCell(const geometry::CellComplex& complex, std::uin
     }
     for (const auto& [plane, start] : starts_) {
         if (next_[start] == kNone) continue;
-        FaceLoop loop{plane, cell, static_cast<std::uint32_t>(loopCorners_.size()), 0};
+        SliceFaceLoop loop{plane, cell, static_cast<std::uint32_t>(loopCorners_.size()), 0};
         for (std::uint32_t slot = start; next_[slot] != kNone;) {
             if (nextEdge_[slot] != kNone) loopCorners_.push_back({slotPoint_[slot], nextEdge_[slot]});
             slot = std::exchange(next_[slot], kNone);
@@ -527,7 +527,7 @@ void CellComplexSlicer::removeCoincidingEdges(SliceSet& out) {
 void CellComplexSlicer::writeLoops(SliceSet& out) {
     out.faceBegin.assign(out.planes.count + 1, 0);
     cornerCursor_.assign(out.planes.count + 1, 0);
-    for (const FaceLoop& loop : loops_) {
+    for (const SliceFaceLoop& loop : loops_) {
         addToDifferences(out.faceBegin, loop.plane, loop.plane + 1);
         cornerCursor_[loop.plane] += loop.size;
         cornerCursor_[loop.plane + 1] -= loop.size;
@@ -540,7 +540,7 @@ void CellComplexSlicer::writeLoops(SliceSet& out) {
     out.corners.resize(corners);
     out.cornerEdges.resize(corners);
     cursor_.assign(out.faceBegin.begin(), out.faceBegin.end());
-    for (const FaceLoop& loop : loops_) {
+    for (const SliceFaceLoop& loop : loops_) {
         const std::uint32_t face = cursor_[loop.plane]++;
         std::uint32_t& corner = cornerCursor_[loop.plane];
         const std::uint32_t firstVertex = out.vertexBegin[loop.plane];

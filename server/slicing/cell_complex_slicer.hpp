@@ -64,7 +64,7 @@ class CellComplexSlicer {
     // A face of the slice in the hyperplane with the index `plane`: a closed loop of `size` corners. Its first corner
     // is loopCorners_[begin]. `source` is the entry of the face in SliceSet::faceSource: it says from which cell or
     // 2-face of the complex the face was cut.
-    struct FaceLoop {
+    struct SliceFaceLoop {
         std::int32_t plane;
         std::uint32_t source, begin, size;
     };
@@ -159,7 +159,7 @@ class CellComplexSlicer {
     std::vector<std::uint32_t> touchingFaces_;
     std::vector<bool> bounded_;  // per hyperplane: whether a 2-face that lies in the hyperplane is a slice face
     std::vector<std::optional<bool>> upward_;  // per cell: the result of hasUpwardNormal(); empty if not yet computed
-    std::vector<FaceLoop> loops_;
+    std::vector<SliceFaceLoop> loops_;
     // Per corner of a loop: the slice vertex at the corner, and the slice edge that leads to the next corner.
     std::vector<std::array<std::uint32_t, 2>> loopCorners_;
     // Per hyperplane: the index at which the next vertex, edge or face (cursor_) or corner (cornerCursor_) is written.

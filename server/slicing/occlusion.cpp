@@ -35,7 +35,8 @@ glm::dvec2 OcclusionFinder::ProjectedFaceFrame::coordinatesOf(const glm::dvec4& 
 }
 
 bool OcclusionFinder::findDrawnElements(const geometry::CellComplex& complex, std::span<const glm::dvec4> images,
-                                        const CellRoles& roles, bool withFaces, std::size_t steps, DrawnElements& out) {
+                                        const DrawnAndHidingCells& roles, bool withFaces, std::size_t steps,
+                                        DrawnElements& out) {
     complex_ = &complex;
     out.vertices.assign(complex.vertices.size(), false);
     out.edgeParts.clear();

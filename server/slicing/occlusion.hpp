@@ -28,7 +28,7 @@ struct DrawnElements {
 };
 
 /// For each cell of a complex: whether its elements may be drawn, and whether it hides what lies behind it.
-struct CellRoles {
+struct DrawnAndHidingCells {
     std::vector<bool> drawn, hides;
 };
 
@@ -42,7 +42,7 @@ class OcclusionFinder {
     static constexpr std::size_t kDefaultSteps = 50'000'000;
 
     /// Finds what is drawn of `complex`; `images` has the image of each vertex, as ProjectedCells describes it. Only
-    /// elements of cells whose entry in CellRoles::drawn is true are drawn, and of these:
+    /// elements of cells whose entry in DrawnAndHidingCells::drawn is true are drawn, and of these:
     /// - if `withFaces`, the 2-faces that are not wholly hidden; otherwise, no 2-face;
     /// - the parts of edges that are not hidden;
     /// - the vertices that are not hidden.
@@ -60,7 +60,7 @@ class OcclusionFinder {
     /// boundary of a cell. Returns false if the steps are too few; then `out` is not valid. If the steps are fewer than
     /// the pairs of a hiding cell and an element to be tested, returns false at once.
     bool findDrawnElements(const geometry::CellComplex& complex, std::span<const glm::dvec4> images,
-                           const CellRoles& roles, bool withFaces, std::size_t steps, DrawnElements& out);
+                           const DrawnAndHidingCells& roles, bool withFaces, std::size_t steps, DrawnElements& out);
 
   private:
     using Box = ProjectedCells::Box;
@@ -101,7 +101,7 @@ class OcclusionFinder {
     std::vector<glm::dvec2> outline_;        // the vertex loop of the tested 2-face
     std::vector<std::uint32_t> candidates_;  // the indices of the occluders that may hide parts of the element
     std::vector<double> places_;             // the places at which a line crosses outline_, as fractions of the line
-    std::vector<ProjectedCells::Part> visibleParts_;  // the visible parts of the tested edge
+    std::vector<ProjectedCells::SegmentPart> visibleParts_;  // the visible parts of the tested edge
 };
 
 }  // namespace oval4d::slicing

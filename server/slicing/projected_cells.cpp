@@ -180,13 +180,13 @@ bool ProjectedCells::isHidden(const Segment& segment, std::span<const std::uint3
 
 // A point is visible if it is visible after one of the shifts.
 void ProjectedCells::findVisibleParts(const Segment& segment, std::span<const std::uint32_t> candidates,
-                                      std::vector<Part>& out) {
+                                      std::vector<SegmentPart>& out) {
     visible_.clear();
     for (const glm::dvec3& corner : kTetrahedron) {
         if (findCovered(shifted(segment, corner), candidates)) continue;
         if (exhausted_) break;
         addVisible();
-        if (!visible_.empty() && visible_.back() == Part(0, 1)) break;
+        if (!visible_.empty() && visible_.back() == SegmentPart(0, 1)) break;
     }
     std::ranges::sort(visible_);
     out.clear();

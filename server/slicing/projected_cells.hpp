@@ -93,12 +93,13 @@ class ProjectedCells {
     bool isHidden(const Segment& segment, std::span<const std::uint32_t> candidates);
 
     /// A part of a segment, from 0 at its beginning to 1 at its end.
-    using Part = std::pair<double, double>;
+    using SegmentPart = std::pair<double, double>;
 
     /// Writes the parts of the segment that no cell hides to `out`, in ascending order, apart from those shorter than
     /// about 10⁻⁶ of the segment. Gaps so short between them are left out, too. There are such parts if and only if the
     /// segment is not hidden (see isHidden()). Overwrites `out`.
-    void findVisibleParts(const Segment& segment, std::span<const std::uint32_t> candidates, std::vector<Part>& out);
+    void findVisibleParts(const Segment& segment, std::span<const std::uint32_t> candidates,
+                          std::vector<SegmentPart>& out);
 
     /// Counts `steps` steps of work. A step is the comparison of a part of an element with a cell, or with a triangle
     /// of the boundary of a cell.
@@ -141,7 +142,7 @@ class ProjectedCells {
     std::size_t lastHiding_ = 0;             // the index of the last occluder that hid a whole segment
 
     std::vector<double> cuts_;  // where a cell may begin or cease to hide a segment, as fractions of the segment
-    std::vector<Part> covered_, visible_;  // the hidden parts of a segment, and the parts that are not hidden
+    std::vector<SegmentPart> covered_, visible_;  // the hidden parts of a segment, and the parts that are not hidden
 };
 
 }  // namespace oval4d::slicing

@@ -22,7 +22,7 @@ using geometry::kNone;
 
 // Which elements of a cell complex are written to part 0 of the output, the projection of the object (see
 // Projector::project()).
-struct ElementSelection {
+struct ProjectedElementSelection {
     const DrawnElements* unhidden;    // the selected elements; if null, `facing` selects elements
     const std::vector<bool>* facing;  // per cell: whether its elements are selected; if null, all elements are selected
     bool face(const geometry::CellComplex& p, std::size_t f) const {
@@ -34,7 +34,7 @@ struct ElementSelection {
 // Numbers the selected vertices and edges. Sets the entries of `vertices` and `edges` to the indices of these elements
 // in part 0 of the output, or to kNone for elements that are not selected. An edge that is seen in parts gets the index
 // of its first part.
-void numberSelectedElements(const geometry::CellComplex& p, const ElementSelection& selection,
+void numberSelectedElements(const geometry::CellComplex& p, const ProjectedElementSelection& selection,
                             std::vector<std::uint32_t>& vertices, std::vector<std::uint32_t>& edges) {
     vertices.assign(p.vertices.size(), kNone);
     edges.assign(p.edges.size(), kNone);
@@ -133,7 +133,7 @@ void Projector::project(const Object& object, const geometry::Rotation& orientat
         const bool allHide = findHidingCells(p, options.hiddenTypes);
         const bool mayHideItself = culled && (!allHide || !infoOf(object).convex);
         if (mayHideItself) roles_.drawn = allHide ? cellIsFacing_ : roles_.hides;
-        const ElementSelection selection{
+        const ProjectedElementSelection selection{
             mayHideItself ? findUnhiddenElements(p, orientation, slices, options) : nullptr,
             culled ? &cellIsFacing_ : nullptr};
         lacksSteps_ = mayHideItself && selection.unhidden == nullptr;

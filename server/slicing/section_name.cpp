@@ -230,7 +230,7 @@ const std::vector<SectionNamer::NamedShape>& SectionNamer::knownShapes() {
                 continue;
             }
             shapes.emplace_back(std::string(solid.name), 3, polytopes::verticesOf(solid));
-            const polytopes::Solid dual{&solid, 0, false, true};
+            const polytopes::SolidDescription dual{&solid, 0, false, true};
             const std::string nameOfDual = polytopes::nameOf(dual);
             // The duals of the Platonic solids are Platonic solids themselves, so they already have names.
             if (std::ranges::none_of(named, [&](const auto& other) { return other.name == nameOfDual; }))
@@ -249,7 +249,7 @@ const std::vector<SectionNamer::NamedShape>& SectionNamer::knownShapes() {
             if (n != 3) {  // for n = 3, the antiprism is an octahedron, and the trapezohedron a cube
                 shapes.emplace_back(polytopes::adjectiveOf(polygon) + " antiprism", 3,
                                     polytopes::snubOf(polygon, {2, 1}).vertices);
-                const polytopes::Solid trapezohedron{nullptr, n, true, true};
+                const polytopes::SolidDescription trapezohedron{nullptr, n, true, true};
                 shapes.emplace_back(polytopes::nameOf(trapezohedron), polytopes::meshOf(trapezohedron));
             }
         }

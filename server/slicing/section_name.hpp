@@ -18,12 +18,12 @@ namespace oval4d::slicing {
 
 /// The two names of the section of an object by a hyperplane. The names may differ: the slice also has vertices at the
 /// points where edges of the object cross the hyperplane, and only `slice` takes these points into account.
-struct SectionNamePair {
+struct SliceAndHullNames {
     std::string_view slice;  ///< the name of the slice: the result of SectionNamer::nameOfSlice()
     /// The name of the convex hull of the object's vertices in the hyperplane: the result of
     /// SectionNamer::nameOfHullOfObjectVertices().
     std::string_view vertices;
-    bool operator==(const SectionNamePair&) const = default;
+    bool operator==(const SliceAndHullNames&) const = default;
 };
 
 /// The names of a section, with the object, orientation and hyperplane that determine them.
@@ -31,7 +31,7 @@ struct NamedSection {
     std::uint64_t object = 0;  ///< the serial number of the object
     geometry::Rotation orientation;
     double w = 0;  ///< the w coordinate of the hyperplane
-    SectionNamePair names;
+    SliceAndHullNames names;
 
     /// Returns whether this is the section of `shown`, rotated by `rotation`, by the hyperplane w = `focusW`.
     bool isSectionOf(const Object& shown, const geometry::Rotation& rotation, double focusW) const;
@@ -57,7 +57,7 @@ class SectionNamer {
   public:
     /// Tests quickly, without cutting the object, whether a section may have a name. Returns false if the section of
     /// `object`, rotated by `orientation`, by the hyperplane w = `w` certainly has neither of the names in
-    /// SectionNamePair. The result depends on two numbers: n, the number of the object's vertices in the hyperplane,
+    /// SliceAndHullNames. The result depends on two numbers: n, the number of the object's vertices in the hyperplane,
     /// and m, the number of edges that cross it. The slice has n + m vertices, and the second name depends only on the
     /// n vertices. So the result is true if n or n + m is between 1 and the vertex count of the largest named shape.
     /// For objects whose sections have no names (see ObjectKindProperties), such as fields, the result is always false.

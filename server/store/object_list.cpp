@@ -88,7 +88,7 @@ slicing::Object ObjectListDecoder::buildNamedPolytope(const std::string& name, p
     if (vertices > vertexBudget_) throwLaterRecord("its polytopes have too many vertices");
     vertexBudget_ -= vertices;
     try {
-        return cache.get(*design);
+        return cache.findOrBuild(*design);
     } catch (const std::invalid_argument& fault) {
         throwUnreadableRecord("a polytope cannot be built: " + std::string(fault.what()));
     }

@@ -72,7 +72,7 @@ struct ExportOptionParser {
 
     /// Parses a number of slices, from 1 to `maxSlices`.
     Result<std::monostate> parse(std::string_view name, const std::string& text, std::optional<int>& fit) const {
-        const auto value = session::evaluate(text);
+        const auto value = session::evaluateNumber(text);
         if (!value) return Error{value.error().code, std::string(name) + ": " + value.error().message};
         if (*value != std::trunc(*value) || !(*value >= 1 && *value <= maxSlices))
             return invalidFitError(maxSlices, text::roundedDecimal(*value));

@@ -13,8 +13,8 @@ namespace oval4d::wire {
 /// request that they describe. Options that are missing have their default values. The default of "of" is "oval" if the
 /// query contains "at" or "fit". Errors, whose messages state what is allowed: `bad_message` for an unknown value of
 /// "of", "body", "label" or "exact"; `out_of_range` for a size that is not allowed, or if "fit" is not a whole number
-/// from 1 to `maxSlices`; for "at" and "fit", also the errors of session::evaluate(). After an error, `query` must not
-/// be used.
+/// from 1 to `maxSlices`; for "at" and "fit", also the errors of session::evaluateNumber(). After an error, `query`
+/// must not be used.
 Result<exports::ExportRequest> extractExportRequest(session::QueryParameters& query, const exports::Format& format,
                                                     int maxSlices);
 

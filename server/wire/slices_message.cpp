@@ -285,7 +285,7 @@ void SlicesMessageWriter::writeMatrix(W& w, const Scene& scene) {
     w.beginArray();
     for (std::size_t i = 0; i < matrix.sections.size(); ++i) {
         const slicing::PlanarSection& section = matrix.sections[i];
-        const scene::SectionMatrix::SectionStyle& styles = matrix.styles[i];
+        const scene::SectionMatrix::SectionElementLooks& styles = matrix.styles[i];
         w.beginObject();
         writeNumbers(w, "axes", section.axes);
         writePairs(w, "points", section.points);

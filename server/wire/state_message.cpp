@@ -57,7 +57,7 @@ void writeLastTurn(JsonWriter& w, const std::optional<geometry::RotationAngles>&
     w.beginObject();
     w.key("planes");
     w.beginArray();
-    for (const geometry::Plane plane : turn->planes()) w.value(geometry::name(plane));
+    for (const geometry::Plane plane : turn->planes()) w.value(geometry::planeName(plane));
     w.endArray();
     w.key("angles");
     w.beginArray();
@@ -120,7 +120,7 @@ void writePart(JsonWriter& w, const fields::Field& field) {
 // These are the values of the second function or, without one, of the field.
 void writeValues(JsonWriter& w, const fields::Field& field, scene::ColorScheme scheme) {
     constexpr int kColors = 9;
-    const scene::ValueColorScale scale = scene::valueScaleFor(field.coloringRange->typicalRange(), scheme);
+    const scene::ValueColorScale scale = scene::valueColorScaleFor(field.coloringRange->typicalRange(), scheme);
     w.key("values");
     w.beginObject();
     if (field.second && field.second->array) {
@@ -206,7 +206,7 @@ void writeSettings(JsonWriter& w, const session::State& state) {
 }
 
 // Writes the `state` message to `out`. Omits the serial number of the object if `serial` is empty.
-void writeState(std::string& out, const session::State& state, const slicing::SectionNamePair& section,
+void writeState(std::string& out, const session::State& state, const slicing::SliceAndHullNames& section,
                 std::uint64_t revision, std::optional<std::uint64_t> serial, std::optional<double> id,
                 slicing::Quality quality, scene::ColorScheme viewer) {
     const scene::ColorScheme scheme = scene::schemeForBackground(state.look.background, viewer);
@@ -237,12 +237,12 @@ constexpr std::size_t kTypicalBytes = 1024;
 
 }  // namespace
 
-void stateMessage(const session::State& state, const slicing::SectionNamePair& section, std::uint64_t revision,
+void stateMessage(const session::State& state, const slicing::SliceAndHullNames& section, std::uint64_t revision,
                   std::optional<double> id, std::string& out, slicing::Quality quality, scene::ColorScheme viewer) {
     writeState(out, state, section, revision, slicing::infoOf(state.source).serial, id, quality, viewer);
 }
 
-std::string stateMessage(const session::State& state, const slicing::SectionNamePair& section, std::uint64_t revision,
+std::string stateMessage(const session::State& state, const slicing::SliceAndHullNames& section, std::uint64_t revision,
                          std::optional<double> id, slicing::Quality quality, scene::ColorScheme viewer) {
     std::string out;
     out.reserve(kTypicalBytes);
@@ -250,7 +250,7 @@ std::string stateMessage(const session::State& state, const slicing::SectionName
     return out;
 }
 
-std::string stateMessageOutsideSessions(const session::State& state, const slicing::SectionNamePair& section) {
+std::string stateMessageOutsideSessions(const session::State& state, const slicing::SliceAndHullNames& section) {
     std::string out;
     out.reserve(kTypicalBytes);
     writeState(out, state, section, 0, {}, {}, slicing::Quality::full, scene::ColorScheme::dark);

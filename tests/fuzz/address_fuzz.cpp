@@ -94,7 +94,7 @@ void describe(session::QueryParameters query) {
         }
         fuzz::requireSound(*state, fuzz::kLimits);
         fuzz::requireRoundTrip(*state, {});
-        const std::string name = pipeline::fileName(state->object, *request);
+        const std::string name = pipeline::exportFileName(state->object, *request);
         const std::string_view plain = "0123456789abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ-_.";
         require(name.find_first_not_of(plain) == std::string::npos, "a file's name needs no quoting:", name);
     }

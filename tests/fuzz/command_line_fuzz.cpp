@@ -10,7 +10,7 @@ using fuzz::require;
 namespace {
 
 void evaluateIt(std::string_view text) {
-    const auto value = session::evaluate(text);
+    const auto value = session::evaluateNumber(text);
     if (!value) {
         fuzz::requireSentence(value.error());
         return;
@@ -19,11 +19,11 @@ void evaluateIt(std::string_view text) {
     // The value must stay the same when it is formatted, as the command line does it, and parsed again.
     std::array<char, 32> digits;
     const std::size_t length = std::snprintf(digits.data(), digits.size(), "%.17g", *value);
-    const auto again = session::evaluate({digits.data(), length});
+    const auto again = session::evaluateNumber({digits.data(), length});
     const bool tiny = *value != 0 && std::abs(*value) < 1e-300;  // the parser may refuse denormal numbers
     require(tiny || (again && *again == *value), "a number's own text is that number:", digits.data());
     if (text.size() > 900) return;
-    const auto bracketed = session::evaluate("(" + std::string(text) + ")");
+    const auto bracketed = session::evaluateNumber("(" + std::string(text) + ")");
     require(!bracketed || *bracketed == *value, "brackets change nothing");
 }
 

@@ -21,7 +21,7 @@ namespace {
 
 void readOrder(std::string_view bytes) {
     raster::DrawRequest order;
-    raster::decodeRequest(bytes, order);
+    raster::decodeDrawRequest(bytes, order);
     const glm::dmat4 matrix = order.picture.orientation.matrix();
     require(std::abs(glm::determinant(matrix) - 1) < 1e-6, "a draw request has a rotation");
 }

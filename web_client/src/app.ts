@@ -10,18 +10,18 @@ import { ColorControls } from "./color_controls";
 import { ColorScheme, opaqueBackgroundOf, type ColorSchemeChoice } from "./color_scheme";
 import { CommandLine } from "./command_line";
 import { namesOfServerKeys } from "./completion";
-import { ConnectionStatus } from "./connection_status";
+import { ConnectionStatusDisplay } from "./connection_status";
 import { download, fileName } from "./download";
 import { byId } from "./element";
-import { ElementMeasurements } from "./element_measurements";
+import { ElementMeasurementFetcher } from "./element_measurements";
 import { ExportDialog } from "./export_dialog";
 import { FieldPanel } from "./field_panel";
-import { FieldSamples } from "./field_samples";
+import { FieldSampleFetcher } from "./field_samples";
 import { fieldInCommandLine, formulaLoadOf, type FormulaWithBox } from "./fields";
 import { FileLoading } from "./file_loading";
 import { nameOf } from "./files";
 import { WelcomeLine } from "./first_visit";
-import { FocusPointControl } from "./focus_point_control";
+import { FocusPointMover } from "./focus_point_control";
 import { FocusPointDrag } from "./focus_point_drag";
 import { FocusSlider } from "./focus_slider";
 import { FrameHitTesterCache } from "./frame_hit_tester_cache";
@@ -65,7 +65,7 @@ export class App {
     private readonly drawing = byId("drawing");
     private readonly polytopeButton = byId("polytope");
     private readonly notice = new Notice();
-    private readonly connection = new ConnectionStatus(() => this.session.beginNewSession(this.state));
+    private readonly connection = new ConnectionStatusDisplay(() => this.session.beginNewSession(this.state));
     private readonly keyRepeatLimiter = new KeyRepeatLimiter();
     private readonly latency = new LatencyMeter();
     private readonly initialView = extractInitialView();
@@ -133,7 +133,7 @@ export class App {
         failed: (error) => this.notice.show(error.message),
     });
     private readonly frameMatrixCache = new FrameSectionMatrixCache(this.client, this.stage);
-    private readonly focusPointControl = new FocusPointControl(this.client, {
+    private readonly focusPointControl = new FocusPointMover(this.client, {
         gestureBegan: () => this.slider.stop(),
         failed: (error) => this.notice.show(error.message),
     });
@@ -146,7 +146,7 @@ export class App {
         () => showTiltPressed(this.tilt.ball),
         (error) => this.notice.show(error.message),
     );
-    private readonly measurements: ElementMeasurements = new ElementMeasurements(
+    private readonly measurements: ElementMeasurementFetcher = new ElementMeasurementFetcher(
         () => this.state,
         ({ element, number }) => this.client.request({ type: "measure", element, number, highlight: true }),
         () => {
@@ -154,7 +154,7 @@ export class App {
             this.pointing.completeHighlight();
         },
     );
-    private readonly samples: FieldSamples = new FieldSamples(
+    private readonly samples: FieldSampleFetcher = new FieldSampleFetcher(
         () => this.state,
         (point) => this.client.request({ type: "get", what: "at", point }),
         () => this.pointedLabel.update(),

@@ -12,7 +12,7 @@ const kBlocked =
 // If the server refuses a session for one of these reasons, the session still exists.
 const kKeptSession = new Set(["later_version", "internal"]);
 
-export class ConnectionStatus {
+export class ConnectionStatusDisplay {
     private readonly root = byId("connection");
     private readonly text = this.root.querySelector("span")!;
     private readonly stale = byId("stale");

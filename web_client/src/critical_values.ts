@@ -19,7 +19,7 @@ const kRestTime = 200;
 const kFieldRestTime = 1500;
 const kRounding = 1e-6; // in circumradii of the object: rounded values of w that differ by at most this count as equal
 
-export class CriticalValues {
+export class CriticalValueTracker {
     /** The critical values from the lowest w to the highest; empty before the first are known. */
     all: CriticalValue[] = [];
     /** Whether `all` and `range` belong to the newest state, not to an earlier one. */

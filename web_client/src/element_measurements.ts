@@ -3,7 +3,7 @@
 
 import type { Measured, PolytopeElement, State } from "@oval4d/protocol";
 
-export class ElementMeasurements {
+export class ElementMeasurementFetcher {
     private wanted: PolytopeElement | undefined;
     private asked = ""; // the text of the last question; see questionAbout()
     private newest: { about: string; answer: Measured | undefined } = { about: "", answer: undefined };

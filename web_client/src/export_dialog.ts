@@ -26,7 +26,7 @@ const kOptionReaders: Record<FileOptionName, (value: string) => ExportOptionValu
 };
 const kOptions: Record<string, (value: string) => ExportOptionValue> = kOptionReaders;
 
-type RequestedFile = [file: ExportedFile, state: State];
+type ExportedFileWithState = [file: ExportedFile, state: State];
 
 export class ExportDialog {
     private readonly dialog = new Dialog("export");
@@ -325,7 +325,7 @@ export class ExportDialog {
      * Requests the state and a file. The state is the one that the file shows, because the server executes the two
      * requests one after the other.
      */
-    private async requestFile({ name: format }: ExportFormat, options: ExportChoices): Promise<RequestedFile> {
+    private async requestFile({ name: format }: ExportFormat, options: ExportChoices): Promise<ExportedFileWithState> {
         const state = this.client.request({ type: "get", what: "state" });
         if (format !== "png") {
             const chosen = options as unknown as Partial<FileOptions>;
@@ -342,7 +342,7 @@ export class ExportDialog {
         return [{ bytes, warnings: [] }, shown];
     }
 
-    private saveFile([{ bytes, warnings }, state]: RequestedFile, format: ExportFormat, options: ExportChoices): void {
+    private saveFile([{ bytes, warnings }, state]: ExportedFileWithState, format: ExportFormat, options: ExportChoices): void {
         download(bytes, fileNameFor(state, format, options), format.type);
         this.warn(warnings);
     }

@@ -4,7 +4,7 @@ import type { FileOptions } from "@oval4d/protocol";
 
 import table from "../../protocol/export_formats.json";
 
-export type ExportOption = "of" | "body" | "size" | "label" | "exact" | "side" | "pixels" | "background";
+export type ExportOptionName = "of" | "body" | "size" | "label" | "exact" | "side" | "pixels" | "background";
 
 export interface ExportFormat {
     /** The name in the protocol, which is also the file name extension. */
@@ -15,7 +15,7 @@ export interface ExportFormat {
     /** The media type of the file, as in the HTTP header Content-Type. */
     type: string;
     /** The options that the dialog offers for this format; "exact" is offered only for fields. */
-    choices: ExportOption[];
+    choices: ExportOptionName[];
     /** What the file can contain; the first is the default. */
     of: string[];
     /** Replaces `about` and `of` if the object is a field. */
@@ -89,7 +89,7 @@ function formatFromRow(row: ExportFormatRow): ExportFormat {
     };
 }
 
-function choicesOf(row: ExportFormatRow): ExportOption[] {
+function choicesOf(row: ExportFormatRow): ExportOptionName[] {
     const exact = row.surfaces ? ["exact" as const] : [];
     if (row.bodies) return ["of", "body", ...exact, "size", "label"];
     const side = row.group === "figure" ? ["side" as const] : [];
@@ -100,7 +100,7 @@ function choicesOf(row: ExportFormatRow): ExportOption[] {
 export function fileOptionsOf({ choices, of }: ExportFormat): Map<string, string[]> {
     const applies = (name: string): boolean => {
         if (name === "at" || name === "fit") return of.includes("oval");
-        return choices.includes((name === "size" && choices.includes("side") ? "side" : name) as ExportOption);
+        return choices.includes((name === "size" && choices.includes("side") ? "side" : name) as ExportOptionName);
     };
     const all = Object.entries<string[]>({ ...kFileOptions, of }).filter(([name]) => applies(name));
     return new Map(all);

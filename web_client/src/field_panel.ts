@@ -12,7 +12,7 @@ import { comparisonOperatorIn } from "./formula";
 import { FormulaInput } from "./formula_input";
 import { ConstantSliders } from "./constant_sliders";
 import { NewestValueSender } from "./newest_only";
-import { ObserverControls } from "./observer_controls";
+import { ReferenceFrameControls } from "./observer_controls";
 import { loadFromStorage, saveToStorage } from "./storage";
 
 export interface FieldPanelEvents {
@@ -54,7 +54,7 @@ export class FieldPanel {
     private readonly capSettings = new NewestValueSender<Caps>((caps) => this.applySettings({ caps }));
     private readonly insideSettings = new NewestValueSender<Inside>((inside) => this.applySettings({ inside }));
     private readonly fog = new FogEditor((settings) => this.events.changeSettings(settings));
-    private readonly observer = new ObserverControls((settings) => this.events.changeSettings(settings));
+    private readonly observer = new ReferenceFrameControls((settings) => this.events.changeSettings(settings));
     private loaded: FormulaWithBox | undefined; // the formula that this page loaded last
     // The settings that loadFormula() sent last, and the revision in the server's answer. Undefined after a state of
     // this or a later revision has arrived.

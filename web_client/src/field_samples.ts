@@ -3,7 +3,7 @@
 import type { At, State } from "@oval4d/protocol";
 
 /** A point of a field: its place in the field's box, and the values of the field's functions there. */
-export type FieldPoint = Pick<At, "place" | "value" | "second_value">;
+export type FieldSample = Pick<At, "place" | "value" | "second_value">;
 
 /**
  * A point of the picture on a surface or a contour of a field, or on a cap. Caps are the flat parts that close a body
@@ -20,7 +20,7 @@ export interface LevelPointDescription {
     /** The w of the slice in which the point is; undefined in the projection and in the matrix. */
     sliceW?: number | undefined;
     /** The values at the point that are known without a question to the server. */
-    known?: FieldPoint;
+    known?: FieldSample;
     /** The revision of the picture that shows the point. */
     revision: number;
     /**
@@ -32,9 +32,9 @@ export interface LevelPointDescription {
 
 const kInterval = 70; // the least time between two questions to the server, in milliseconds
 
-export class FieldSamples {
+export class FieldSampleFetcher {
     private wanted: LevelPointDescription | undefined;
-    private newest: { about: string; on: string; answer: FieldPoint } = { about: "", on: "", answer: {} };
+    private newest: { about: string; on: string; answer: FieldSample } = { about: "", on: "", answer: {} };
     private isAsking = false;
 
     /** `sample` asks the server for the values of the field at a point. `answered` is called after each answer. */
@@ -48,7 +48,7 @@ export class FieldSamples {
      * The known values at a point. While the pointer moves on a surface, these are the newest values that the server
      * has sent for this surface. Empty if there are none, or if the server has refused to answer.
      */
-    knownAt(point: LevelPointDescription): FieldPoint {
+    knownAt(point: LevelPointDescription): FieldSample {
         return point.known ?? (this.newest.on === this.surfaceOf(point) ? this.newest.answer : {});
     }
 

@@ -6,7 +6,7 @@ import type { Client, Done, RequestError, State } from "@oval4d/protocol";
 
 import { isBinaryFile, uploadArray } from "./array_upload";
 import { byId, element } from "./element";
-import { FileError, linesAround, type LoadContent, nameOf, readFile, readState, fileTooLargeText } from "./files";
+import { FileError, linesAround, type FileLoadMessage, nameOf, readFile, readState, fileTooLargeText } from "./files";
 import { toSentence } from "./format";
 
 const kProgressInterval = 100; // milliseconds between two updates of the progress
@@ -15,7 +15,7 @@ const kMaxKept = 8; // the most objects that can be loaded again: as many as a s
 const kMaxExcerptWidth = 120; // in the excerpt of a faulty file, longer lines are cut to this many characters
 
 /** An object that can be loaded again: a text, an array, or a field of the server's data folder. */
-type ReloadableObject = LoadContent | File | { name: string; path: string };
+type ReloadableObject = FileLoadMessage | File | { name: string; path: string };
 
 export class FileLoading {
     private readonly root = byId("loading");
@@ -75,7 +75,7 @@ export class FileLoading {
     }
 
     private async load(file: File): Promise<void> {
-        let read: LoadContent | undefined;
+        let read: FileLoadMessage | undefined;
         try {
             this.beginProgress(file.name);
             const limit = this.client.welcome?.limits.message ?? kDefaultLimit;
@@ -97,7 +97,7 @@ export class FileLoading {
         }
     }
 
-    private async loadObject(object: LoadContent): Promise<void> {
+    private async loadObject(object: FileLoadMessage): Promise<void> {
         const { warnings = [] } = await this.send(object);
         this.keep(object);
         this.finishLoading(warnings, warnings.length > 0 ? await this.originButton(object) : []);
@@ -107,7 +107,7 @@ export class FileLoading {
      * A list with one button. The button loads the object again, so that it turns about the origin of its file. The
      * list is empty if the object already turns about this origin, or if another object is shown.
      */
-    private async originButton(object: LoadContent): Promise<Node[]> {
+    private async originButton(object: FileLoadMessage): Promise<Node[]> {
         const { polytope } = await this.client.request({ type: "get", what: "state" });
         if (polytope.name !== object.name || !polytope.center) return [];
         const button = element("button", { type: "button" }, "Turn about the origin of the file");
@@ -118,7 +118,7 @@ export class FileLoading {
         return [button];
     }
 
-    private async loadAgain(object: LoadContent): Promise<void> {
+    private async loadAgain(object: FileLoadMessage): Promise<void> {
         try {
             this.beginProgress(object.name);
             await this.loadObject(object);
@@ -142,7 +142,7 @@ export class FileLoading {
         else this.progress.removeAttribute("value"); // the server does not report the progress of its check
     }
 
-    private async send(content: LoadContent): Promise<Done> {
+    private async send(content: FileLoadMessage): Promise<Done> {
         const answer = this.client.request({ type: "load", ...content });
         const all = this.client.unsentBytes;
         const timer = setInterval(() => {

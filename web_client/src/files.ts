@@ -3,7 +3,7 @@
 import { pngText, type State } from "@oval4d/protocol";
 
 /** The members of a `load` message that loads a polytope or points from a file. */
-export interface LoadContent {
+export interface FileLoadMessage {
     name: string;
     format: "off" | "points" | "cloud";
     data: string;
@@ -19,7 +19,7 @@ const kMaxNameLength = 64; // the most characters of a name, as in the message `
  * Reads the text of a polytope or a list of points from a file. Throws FileError if the file is empty, or too large to
  * be sent in a message of `limit` bytes.
  */
-export async function readFile(file: File, limit: number): Promise<LoadContent> {
+export async function readFile(file: File, limit: number): Promise<FileLoadMessage> {
     if (file.size === 0) throw new FileError("The file is empty.");
     if (file.size > limit) throw new FileError(fileTooLargeText(file.size, limit));
     const data = await readText(file);
@@ -71,7 +71,7 @@ export async function readState(file: File, limit: number): Promise<State | unde
  * The format of a text file. A keyword at the start of the text, after any comments, names the format; without a
  * keyword, the file name extension does. The server recognizes the same keywords (isOffFormat() in off4.hpp).
  */
-function formatOf(name: string, data: string): LoadContent["format"] {
+function formatOf(name: string, data: string): FileLoadMessage["format"] {
     const [, first = ""] = /^(?:\s|#[^\r\n]*(?:[\r\n]|$))*([^\s#]*)/.exec(data) ?? [];
     if (/^cloud$/i.test(first)) return "cloud";
     return /^[stcn\d_-]*off[_-]*(?:\d|$)/i.test(first) || /\.4?off$/i.test(name) ? "off" : "points";

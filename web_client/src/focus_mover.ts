@@ -8,7 +8,7 @@ interface FocusAtRevision {
     revision: number;
 }
 
-export class FocusMover {
+export class FocusSliceMover {
     private wanted = 0;
     private isUnsent = false;
     private continues = false; // whether the next move joins the undo step of the last move

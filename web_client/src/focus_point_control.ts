@@ -20,7 +20,7 @@ export interface FocusPointEvents {
 
 const kOrigin: Point4 = [0, 0, 0, 0];
 
-export class FocusPointControl {
+export class FocusPointMover {
     private wanted = kOrigin;
     private isUnsent = false;
     private isSending = false;

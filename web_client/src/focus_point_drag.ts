@@ -2,7 +2,7 @@
 
 import type { SectionMatrix } from "@oval4d/protocol";
 
-import type { FocusPointControl } from "./focus_point_control";
+import type { FocusPointMover } from "./focus_point_control";
 import { followHover, type AreaPoint } from "./hover";
 import { type MatrixPanel, panelAt } from "./picture/matrix_panel";
 import type { Stage } from "./picture/stage";
@@ -18,7 +18,7 @@ export class FocusPointDrag {
     constructor(
         private readonly drawing: HTMLElement,
         private readonly stage: Stage,
-        private readonly focusPointControl: FocusPointControl,
+        private readonly focusPointControl: FocusPointMover,
         private readonly matrix: () => SectionMatrix | undefined,
     ) {
         followHover(drawing, (at) => {

@@ -4,9 +4,9 @@
 
 import type { Client, Command, Slices, State } from "@oval4d/protocol";
 
-import { type CriticalValue, CriticalValues } from "./critical_values";
+import { type CriticalValue, CriticalValueTracker } from "./critical_values";
 import { byId, element } from "./element";
-import { FocusMover } from "./focus_mover";
+import { FocusSliceMover } from "./focus_mover";
 import { formatW } from "./format";
 
 export interface FocusSliderEvents {
@@ -30,8 +30,8 @@ export class FocusSlider {
     private readonly speed = byId<HTMLSelectElement>("focus-speed");
     // An entry for the speed of the session, listed only while no other entry has this speed.
     private readonly otherSpeed = element("option", {});
-    private readonly criticalValues: CriticalValues;
-    private readonly mover: FocusMover;
+    private readonly criticalValues: CriticalValueTracker;
+    private readonly mover: FocusSliceMover;
     private state: State | undefined;
     private isDragged = false;
     private mayNotSnap = false; // whether Alt or Shift is held
@@ -40,8 +40,8 @@ export class FocusSlider {
         client: Client,
         private readonly events: FocusSliderEvents,
     ) {
-        this.criticalValues = new CriticalValues(client, () => this.showRange());
-        this.mover = new FocusMover(client, (error) => {
+        this.criticalValues = new CriticalValueTracker(client, () => this.showRange());
+        this.mover = new FocusSliceMover(client, (error) => {
             if (error) events.failed(error);
             this.show();
         });

@@ -1,7 +1,7 @@
 // Reads the text of a formula: its named constants, and the position of a mistake.
 
 /** The definition of a named constant after a formula, such as a=pi/2. */
-interface FormulaDefinition {
+interface FormulaConstantDefinition {
     name: string;
     /** What is written after the equals sign. */
     text: string;
@@ -27,7 +27,7 @@ const kDefinitions = /[;,]\s*[A-Za-z]\w*\s*=.*$/s;
 const kDefinition = /([;,]\s*([A-Za-z]\w*)\s*=\s*)(.*?)(?=\s*(?:[;,]\s*[A-Za-z]\w*\s*=|[;,]?\s*$))/gs;
 const kNumber = /^[-+\u2212]?\s*(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?$/;
 
-function definitionsOf(formula: string): FormulaDefinition[] {
+function definitionsOf(formula: string): FormulaConstantDefinition[] {
     return [...formula.matchAll(kDefinition)].map((match) => {
         const [, before = "", name = "", text = ""] = match;
         return { name, text, from: match.index + before.length };

@@ -18,7 +18,7 @@ const kVelocitySettings: Record<VelocitySetting, string> = {
     boost: "Lorentz boost to an observer with this velocity; that of light is 1",
 };
 
-export class ObserverControls {
+export class ReferenceFrameControls {
     private readonly pace = byId<HTMLInputElement>("observer-pace");
     private readonly paceValue = byId("observer-pace-value");
     private readonly error = byId("observer-error");

@@ -9,7 +9,7 @@ import type { RollingBallKind } from "./rolling_ball";
 import type { TiltControl } from "./tilt";
 import type { ToolSection } from "./tools";
 
-export interface PageActions {
+export interface PageToolActions {
     mode: RenderingMode;
     canDrawGeometry: boolean;
     setMode(mode: RenderingMode): void;
@@ -45,7 +45,7 @@ const kTilts = new Map<RollingBallKind, [string, string]>([
     ["3-D", ["Tilt slices", "Turn every slice in place as this device is tilted and twisted"]],
 ]);
 
-export function pageToolSections(actions: PageActions): ToolSection[] {
+export function pageToolSections(actions: PageToolActions): ToolSection[] {
     const renderer = (mode: RenderingMode, label: string, title: string): HTMLElement => {
         const made = createButton(mode, label, title, () => actions.setMode(mode));
         made.toggleAttribute("disabled", mode === "geometry" && !actions.canDrawGeometry);
@@ -137,7 +137,7 @@ export function showFullScreenPressed(isOn: boolean): void {
     document.querySelector('[data-page-tool="full_screen"]')?.setAttribute("aria-pressed", String(isOn));
 }
 
-function tiltSection({ tilt, failed }: PageActions): ToolSection {
+function tiltSection({ tilt, failed }: PageToolActions): ToolSection {
     const content = [...kTilts].map(([ball, [label, title]]) => {
         const isAllowed = window.isSecureContext; // browsers give sensor data only to secure pages
         const made = createButton(`tilt_${ball}`, label, isAllowed ? title : "Only with HTTPS", () => {
@@ -150,13 +150,13 @@ function tiltSection({ tilt, failed }: PageActions): ToolSection {
     return { title: "Tilt", after: "history", content };
 }
 
-function schemeButton(choice: ColorSchemeChoice, { scheme, chooseScheme }: PageActions): HTMLElement {
+function schemeButton(choice: ColorSchemeChoice, { scheme, chooseScheme }: PageToolActions): HTMLElement {
     const made = createButton(`scheme_${choice}`, capitalize(choice), kSchemeTitles[choice], () => chooseScheme(choice));
     made.setAttribute("aria-pressed", String(choice === scheme));
     return made;
 }
 
-function fullScreenButton({ fullScreen, failed }: PageActions): HTMLElement {
+function fullScreenButton({ fullScreen, failed }: PageToolActions): HTMLElement {
     const title = "Fill the screen, with texts for the back of a room; Escape ends it";
     const made = createButton("full_screen", "Full screen", title, () => void fullScreen.toggle().catch(failed));
     made.toggleAttribute("disabled", !fullScreen.isAvailable);
@@ -168,7 +168,7 @@ function fullScreenButton({ fullScreen, failed }: PageActions): HTMLElement {
  * A button that determines whether keys act without Ctrl. Users of speech input can switch this off, because speech
  * input may press single keys by mistake (WCAG 2.1.4).
  */
-function singleKeysButton({ usesSingleKeys, useSingleKeys }: PageActions): HTMLElement {
+function singleKeysButton({ usesSingleKeys, useSingleKeys }: PageToolActions): HTMLElement {
     const made = createButton("single_keys", "Single keys", "Keys act without Ctrl; otherwise use the buttons", () => {
         const on = made.getAttribute("aria-pressed") !== "true";
         made.setAttribute("aria-pressed", String(on));

@@ -3,8 +3,8 @@
 import type { Measured, PolytopeElement, State } from "@oval4d/protocol";
 
 import { byId } from "./element";
-import type { ElementMeasurements } from "./element_measurements";
-import type { FieldPoint, FieldSamples, LevelPointDescription } from "./field_samples";
+import type { ElementMeasurementFetcher } from "./element_measurements";
+import type { FieldSample, FieldSampleFetcher, LevelPointDescription } from "./field_samples";
 import { capitalize, formatCoordinate, formatFieldValue, formatLength, formatW } from "./format";
 import type { AreaPoint } from "./hover";
 import { spokenReferenceFrame } from "./reference_frame";
@@ -45,8 +45,8 @@ export class PointerLabel {
     constructor(
         private readonly drawing: HTMLElement,
         private readonly state: () => State | undefined,
-        private readonly measurements: ElementMeasurements,
-        private readonly samples: FieldSamples,
+        private readonly measurements: ElementMeasurementFetcher,
+        private readonly samples: FieldSampleFetcher,
     ) {}
 
     /**
@@ -109,7 +109,7 @@ function isLevelDescription(described: PointedDescription): described is LevelPo
 
 function describeLevel(
     { level, cap, sliceW }: LevelPointDescription,
-    { place, value, second_value: second }: FieldPoint,
+    { place, value, second_value: second }: FieldSample,
     state: State | undefined,
 ): string {
     const { levels = [], field, slices } = state ?? {};

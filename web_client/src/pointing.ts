@@ -6,7 +6,7 @@
 
 import type { PolytopeElement, Slice, State } from "@oval4d/protocol";
 
-import type { ElementMeasurements } from "./element_measurements";
+import type { ElementMeasurementFetcher } from "./element_measurements";
 import type { LevelPointDescription } from "./field_samples";
 import { followHover, type AreaPoint } from "./hover";
 import { originInFile } from "./origin";
@@ -51,7 +51,7 @@ export class PointerHighlighter {
         private readonly drawing: HTMLElement,
         private readonly stage: Stage,
         private readonly label: PointerLabel,
-        private readonly measurements: ElementMeasurements,
+        private readonly measurements: ElementMeasurementFetcher,
         private readonly state: () => State | undefined,
         private readonly mayShowObject: (revision: number) => boolean,
     ) {

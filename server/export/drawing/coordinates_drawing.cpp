@@ -54,7 +54,7 @@ struct ParallelCoordinatesColumnLayout {
     double zeroLineY(std::size_t row) const { return kDrawingMargin + kAmplitude + rowStep * static_cast<double>(row); }
 };
 
-Drawing drawStrip(const scene::Scene& scene) {
+Drawing drawDensityStrip(const scene::Scene& scene) {
     scene::DensityPlot density;
     density.compute(scene.slices->rotatedVertices, glm::dmat4(1), scene.circumradius);
     const double step = (kDrawingWidth - 2 * kDrawingMargin) / 3, bottom = kDrawingMargin + 2 * kAmplitude;
@@ -162,7 +162,7 @@ Drawing drawCoordinates(const scene::Scene& scene, const slicing::Object& object
                         const geometry::Rotation& orientation) {
     if (const fields::Field* field = slicing::fieldIn(object)) return drawHistogram(scene, *field, orientation);
     const std::vector<glm::dvec4>& vertices = scene.slices->rotatedVertices;
-    if (vertices.size() > scene::kMaxVerticesAsLines) return drawStrip(scene);
+    if (vertices.size() > scene::kMaxVerticesAsLines) return drawDensityStrip(scene);
     const ParallelCoordinatesColumnLayout columns(vertices.size());
     const double right = columns.leftX(columns.perRow - 1) + columns.step;
     Drawing drawing{"Parallel coordinates of the vertices: " + scene.title,

@@ -51,9 +51,9 @@ class PlanarSectionDrawer {
 
     ShapeGroup draw(std::size_t section, bool transposed) {
         const slicing::PlanarSection& from = scene_.sectionMatrix.sections[section];
-        const scene::SectionMatrix::SectionStyle& styles = scene_.sectionMatrix.styles[section];
+        const scene::SectionMatrix::SectionElementLooks& styles = scene_.sectionMatrix.styles[section];
         const int row = from.axes[transposed ? 0 : 1], column = from.axes[transposed ? 1 : 0];
-        const glm::dvec2 center = centerOf(row, column);
+        const glm::dvec2 center = panelCenter(row, column);
         const auto place = [&](const glm::dvec2& p) {
             const glm::dvec2 turned = transposed ? glm::dvec2(p.y, p.x) : p;
             return center + scale_ * glm::dvec2(turned.x, -turned.y);
@@ -105,12 +105,13 @@ class PlanarSectionDrawer {
             numbers.shapes.emplace_back(text);
         };
         for (int axis = 0; axis < 4; ++axis) {
-            const glm::dvec2 below = centerOf(axis == 3 ? 2 : 3, axis), beside = centerOf(axis, axis == 0 ? 1 : 0);
+            const glm::dvec2 below = panelCenter(axis == 3 ? 2 : 3, axis),
+                             beside = panelCenter(axis, axis == 0 ? 1 : 0);
             const double first = std::ceil((origin_[axis] - reach_) / step_);
             for (int i = 0; i <= 2 * reach_ / step_; ++i) {
                 const double at = scale_ * ((first + i) * step_ - origin_[axis]);
                 if (at > half) break;
-                const std::string text = multipleText(first + i - subtractedTicks(axis), step_);
+                const std::string text = multipleText(first + i - ticksSubtractedFromNumbers(axis), step_);
                 const auto characters = static_cast<double>(text.size());
                 const double size = kNumberSize * std::min(1.0, kNumberCharacters / characters), digits = 0.73 * size;
                 const glm::dvec2 under = below + glm::dvec2(at, half), left = beside + glm::dvec2(-half, -at);
@@ -123,10 +124,11 @@ class PlanarSectionDrawer {
         return numbers;
     }
 
-    /// Draws the name of an axis. If the numbers at the axis are shortened (see subtractedTicks()), draws the number
-    /// that must be added to them below the name. Below this number, draws the unit, if it is known and short enough.
+    /// Draws the name of an axis. If the numbers at the axis are shortened (see ticksSubtractedFromNumbers()), draws
+    /// the number that must be added to them below the name. Below this number, draws the unit, if it is known and
+    /// short enough.
     void drawAxisName(int axis, std::vector<DrawnShape>& shapes) const {
-        const glm::dvec2 center = centerOf(axis, axis), below = center + glm::dvec2(0, 0.35 * kName);
+        const glm::dvec2 center = panelCenter(axis, axis), below = center + glm::dvec2(0, 0.35 * kName);
         shapes.emplace_back(TextLine{below, kName, colorOfAxis(axis), std::string(1, "xyzw"[axis])});
         double line = 2;  // position of the next text, in font sizes below the name
         const auto add = [&](const std::string& text) {
@@ -134,9 +136,9 @@ class PlanarSectionDrawer {
                 TextLine{below + glm::dvec2(0, line * kNumberSize), kNumberSize, colorOfAxis(axis), text});
             line += 1.5;
         };
-        if (subtractedTicks(axis) != 0) {
+        if (ticksSubtractedFromNumbers(axis) != 0) {
             std::array<char, 32> text{};
-            std::snprintf(text.data(), text.size(), "%+.15g", subtractedTicks(axis) * step_);
+            std::snprintf(text.data(), text.size(), "%+.15g", ticksSubtractedFromNumbers(axis) * step_);
             add(text.data());
         }
         const fields::PictureAxisUnit& unit = scene_.axisUnits.at(static_cast<std::size_t>(axis));
@@ -145,14 +147,14 @@ class PlanarSectionDrawer {
     }
 
   private:
-    static glm::dvec2 centerOf(int row, int column) {
+    static glm::dvec2 panelCenter(int row, int column) {
         return kDrawingMargin + glm::dvec2(kNumberRoom, 0) + (kPanel + kPanelGap) * glm::dvec2(column, row) +
                kPanel / 2;
     }
 
     // Returns how many tick spacings (step_) are subtracted from all numbers at an axis, to shorten the numbers.
     // Returns 0 if the numbers are short enough.
-    double subtractedTicks(int axis) const {
+    double ticksSubtractedFromNumbers(int axis) const {
         const double middle = std::round(origin_[axis] / step_);
         return static_cast<double>(multipleText(middle, step_).size()) > kNumberCharacters + 1 ? middle : 0;
     }

@@ -66,7 +66,7 @@ class ProjectionDrawer {
 
     // Returns the color of a bar or ball at a depth. Part 0 of the projection is the object, and all other parts are
     // sections.
-    scene::Color colorAt(std::size_t part, double depth) const {
+    scene::Color barOrBallColorAt(std::size_t part, double depth) const {
         const scene::Color focus = scene_.style().axes[3];
         if (part > 0) return scene_.projection.parts[part].barColor == focus ? focus : kFar;
         const double reach = scale_ * scene_.projectionPlacement.radius;
@@ -86,7 +86,7 @@ class ProjectionDrawer {
     }
 
     // Adds a loop (a closed polygon of a face) of a part as a polygon.
-    void addLoop(std::size_t part, std::uint32_t loop, double opacity) {
+    void addFaceLoop(std::size_t part, std::uint32_t loop, double opacity) {
         const SliceSet& set = scene_.projection.elements;
         corners_.clear();
         for (std::uint32_t c = set.cornerBegin[loop]; c < set.cornerBegin[loop + 1]; ++c)
@@ -104,7 +104,7 @@ class ProjectionDrawer {
         };
         if (!projection.drawsPieces(part)) {
             for (std::uint32_t f = set.faceBegin[part]; f < set.faceBegin[part + 1]; ++f) {
-                if (const double own = opacityOf(set.faceSource[f]); own > 0) addLoop(part, f, own);
+                if (const double own = opacityOf(set.faceSource[f]); own > 0) addFaceLoop(part, f, own);
             }
             return;
         }
@@ -116,7 +116,7 @@ class ProjectionDrawer {
             const double own = opacityOf(face.source);
             if (own == 0) continue;
             if (face.endLoop - face.firstLoop == 1) {
-                addLoop(part, face.firstLoop, own);
+                addFaceLoop(part, face.firstLoop, own);
                 continue;
             }
             for (std::uint32_t k = fill.pieceBegin[f]; k < fill.pieceBegin[f + 1]; ++k) {
@@ -151,7 +151,7 @@ class ProjectionDrawer {
             add(depth, LineSegment{.from = paperPosition(a),
                                    .to = paperPosition(b),
                                    .width = width,
-                                   .color = lit ? style.highlight : colorAt(part, depth),
+                                   .color = lit ? style.highlight : barOrBallColorAt(part, depth),
                                    .roundEnds = set.hasBall(from) && set.hasBall(to),
                                    .opacity = seen});
         }
@@ -163,7 +163,7 @@ class ProjectionDrawer {
             const double opacity = seen * (set.ballOpacity.empty() ? 1 : set.ballOpacity[v]);
             const bool lit = scene_.highlight.hasVertex(set.vertexSource[v]);
             add(p.z + scale_ * look.ballRadius, Disk{paperPosition(p), scale_ * look.ballRadius * own,
-                                                     lit ? style.highlight : colorAt(part, p.z), opacity});
+                                                     lit ? style.highlight : barOrBallColorAt(part, p.z), opacity});
         }
     }
 

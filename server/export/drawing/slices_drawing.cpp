@@ -76,7 +76,7 @@ class SliceDrawer {
         const std::uint32_t v0 = set_.vertexBegin[slice], v1 = set_.vertexBegin[slice + 1];
         points_.clear();
         for (std::uint32_t v = v0; v < v1; ++v) points_.push_back(toViewSpace(set_.vertices[v]));
-        findElementsTowardEye();
+        findElementsOfFrontFaces();
         if (scene_.look.parts.faces && !scene_.needsDepthBuffer) addFaces();
         if (scene_.look.parts.faces && scene_.needsDepthBuffer) addConvexPieces();
         if (scene_.drawnBallRadius() > 0) addBalls();
@@ -104,7 +104,7 @@ class SliceDrawer {
     }
     static bool isBehindEye(const glm::dvec3& p) { return p.z > -kNearest; }
 
-    std::span<const std::uint32_t> cornersOfFace(std::uint32_t face) const {
+    std::span<const std::uint32_t> vertexNumbersOfFace(std::uint32_t face) const {
         return std::span(set_.corners)
             .subspan(set_.cornerBegin[face], set_.cornerBegin[face + 1] - set_.cornerBegin[face]);
     }
@@ -117,20 +117,20 @@ class SliceDrawer {
         return area;
     }
 
-    std::vector<glm::dvec3> cornersOf(std::uint32_t face) const {
+    std::vector<glm::dvec3> cornerPositionsOfFace(std::uint32_t face) const {
         std::vector<glm::dvec3> corners;
-        for (const std::uint32_t v : cornersOfFace(face)) corners.push_back(points_[v]);
+        for (const std::uint32_t v : vertexNumbersOfFace(face)) corners.push_back(points_[v]);
         return corners;
     }
 
     /// Sets towardVertices_ and towardEdges_, which say whether a vertex or edge belongs to a face that is turned
     /// toward the eye.
-    void findElementsTowardEye() {
+    void findElementsOfFrontFaces() {
         towardVertices_.assign(points_.size(), false);
         towardEdges_.assign(set_.edgeBegin[slice_ + 1] - set_.edgeBegin[slice_], false);
         if (scene_.needsDepthBuffer) return;
         for (std::uint32_t f = set_.faceBegin[slice_]; f < set_.faceBegin[slice_ + 1]; ++f) {
-            const auto corners = cornersOf(f);
+            const auto corners = cornerPositionsOfFace(f);
             if (corners.empty() || glm::dot(doubleAreaVectorOf(corners), corners[0]) >= 0) continue;
             for (std::uint32_t c = set_.cornerBegin[f]; c < set_.cornerBegin[f + 1]; ++c) {
                 towardVertices_[set_.corners[c]] = true;
@@ -168,7 +168,7 @@ class SliceDrawer {
 
     void addFaces() {
         for (std::uint32_t f = set_.faceBegin[slice_]; f < set_.faceBegin[slice_ + 1]; ++f) {
-            const auto corners = cornersOf(f);
+            const auto corners = cornerPositionsOfFace(f);
             const glm::dvec3 area = doubleAreaVectorOf(corners);
             const bool toward = !corners.empty() && glm::dot(area, corners[0]) < 0;
             const double opacity =
@@ -205,7 +205,7 @@ class SliceDrawer {
 
     /// Returns, for each vertex of the slice, whether the round end of a bar takes the place of its ball, because balls
     /// are not shown.
-    std::vector<bool> findRoundEnds() const {
+    std::vector<bool> verticesWithRoundBarEnds() const {
         std::vector<bool> found(points_.size(), false);
         if (scene_.look.parts.balls) return found;
         for (std::uint32_t e = set_.edgeBegin[slice_]; e < set_.edgeBegin[slice_ + 1]; ++e) {
@@ -218,7 +218,7 @@ class SliceDrawer {
     // A bar has the depth of its far end, and shapes of equal depth are drawn in the order of their addition. Balls are
     // added before bars, so that a bar covers the ball at its far end. The ball at the near end covers the bar.
     void addBalls() {
-        const std::vector<bool> isRoundEnd = findRoundEnds();
+        const std::vector<bool> isRoundEnd = verticesWithRoundBarEnds();
         for (std::uint32_t i = 0; i < points_.size(); ++i) {
             if (isRoundEnd[i]) continue;
             const std::uint32_t v = set_.vertexBegin[slice_] + i;
@@ -319,7 +319,7 @@ bool showsFocusPoint(const scene::Look& look) {
 ShapeGroup drawFocusPoint(const scene::Scene& scene, const scene::SlicePlacement& placement,
                           const PaperProjection& paper) {
     ShapeGroup point{"focus-point", {}};
-    const std::array<scene::ViewSegment, 3> lines = scene::focusLines(scene, placement);
+    const std::array<scene::ViewSegment, 3> lines = scene::focusPointSegments(scene, placement);
     for (std::size_t axis = 0; axis < 3; ++axis) {
         const scene::ViewSegment& ends = lines.at(axis);
         if (ends[0].z > -kNearest || ends[1].z > -kNearest) continue;

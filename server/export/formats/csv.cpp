@@ -24,7 +24,7 @@ namespace {
 
 // Appends the row of slice i of an object that is not a field. `origin` is ObjectInfo::originInFile, and is added to w
 // and to the centroid.
-void appendSlice(std::string& out, const slicing::SliceSet& slices, const glm::dvec4& origin, int i) {
+void appendSliceRow(std::string& out, const slicing::SliceSet& slices, const glm::dvec4& origin, int i) {
     const SliceMeasurements m = measureSlice(slices, i);
     out += std::to_string(slices.planes.first + i) + ',';
     appendDecimal(out, origin.w + slices.planes.w(i));
@@ -56,7 +56,7 @@ void appendMeasurements(std::string& out, const slicing::SurfaceMeasurements& m)
 // Returns a text as a cell of a CSV table: in quotation marks, with quotation marks inside doubled (RFC 4180, section
 // 2). Puts an apostrophe before a text that begins with =, +, - or @, because spreadsheets would read such a text as a
 // formula.
-std::string csvText(const std::string& text) {
+std::string csvCell(const std::string& text) {
     std::string cell = "\"";
     if (text.find_first_of("=+-@") == 0) cell += '\'';
     for (const char c : text) cell.append(c == '"' ? 2 : 1, c);
@@ -71,7 +71,7 @@ struct UnitColumns {
     void add(std::string_view name, const std::string& unit) {
         if (unit.empty()) return;
         (names += ',').append(name);
-        (cells += ',') += csvText(unit);
+        (cells += ',') += csvCell(unit);
     }
 };
 
@@ -106,7 +106,7 @@ class ConstantSliceCoordinateColumn {
     std::string name_, unit_;
 };
 
-std::string fieldCsv(const SceneToWrite& source, const fields::Field& field) {
+std::string fieldMeasurementsCsv(const SceneToWrite& source, const fields::Field& field) {
     const geometry::Hyperplanes& planes = source.scene.slices->planes;
     const slicing::FieldSettings& settings = source.scene.look.field;
     const bool hasLevels = settings.levels.size() > 1;
@@ -149,7 +149,7 @@ std::string fieldCsv(const SceneToWrite& source, const fields::Field& field) {
 }
 
 // Returns a table of the values of w of the vertices, with the number of vertices at each value.
-std::string criticalCsv(const SceneToWrite& source) {
+std::string vertexHeightsCsv(const SceneToWrite& source) {
     std::string out = "w,vertices\n";
     std::vector<double> heights;
     for (const glm::dvec4& v : source.scene.slices->rotatedVertices) heights.push_back(v.w);
@@ -166,7 +166,7 @@ std::string fieldCriticalCsv(const SceneToWrite& source) {
     const slicing::FieldSettings& settings = source.scene.look.field;
     slicing::CriticalSearchLimits limits{.stop = source.budget.stopToken()};
     // The search takes up to 1.5 times `limits.time`, and must end within the time of the export.
-    limits.time = std::min(limits.time, source.budget.time() / 2);
+    limits.time = std::min(limits.time, source.budget.timeLimit() / 2);
     const auto found = slicing::findCriticalSections(source.object, source.orientation, settings, limits);
     source.budget.checkTimeAndStop();
     if (!found) throw ExportRefused{{ExportRefusal::Cause::too_long, found.error().message}};
@@ -201,12 +201,12 @@ std::string fieldCriticalCsv(const SceneToWrite& source) {
 std::string measurementsCsv(const SceneToWrite& source) {
     const fields::Field* field = slicing::fieldIn(source.object);
     if (source.contents == ExportContentsKind::critical)
-        return field != nullptr ? fieldCriticalCsv(source) : criticalCsv(source);
-    if (field != nullptr) return fieldCsv(source, *field);
+        return field != nullptr ? fieldCriticalCsv(source) : vertexHeightsCsv(source);
+    if (field != nullptr) return fieldMeasurementsCsv(source, *field);
     const slicing::SliceSet& slices = *source.scene.slices;
     std::string out = "n,w,vertices,edges,faces,volume,area,centroid_x,centroid_y,centroid_z\n";
     const glm::dvec4& origin = slicing::infoOf(source.object).originInFile;
-    for (int i = 0; i < slices.planes.count; ++i) appendSlice(out, slices, origin, i);
+    for (int i = 0; i < slices.planes.count; ++i) appendSliceRow(out, slices, origin, i);
     return out;
 }
 

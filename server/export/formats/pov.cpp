@@ -137,7 +137,7 @@ void appendPovMesh(std::string& out, const PovMesh& mesh) {
 }
 
 /// The place and size of a slice or of a part of the projection, and the radii and colors of its balls and bars.
-struct PovPlacement {
+struct PovPlacementAndStyle {
     glm::dvec3 position;
     double scale;                  ///< in world units per unit of the object
     double ballRadius, barRadius;  ///< in world units; balls or bars with radius 0 are not drawn
@@ -222,9 +222,9 @@ class PovWriter {
     void addSlice(std::size_t slice) {
         const scene::SlicePlacement& placement = scene_.placements[slice];
         objects_ += "\n// Slice " + std::to_string(placement.index) + "\n";
-        const PovPlacement part{placement.position,       scene_.scale,
-                                scene_.drawnBallRadius(), scene_.look.parts.bars ? scene_.barRadius : 0,
-                                scene_.drawnBallColor(),  style_.bar};
+        const PovPlacementAndStyle part{placement.position,       scene_.scale,
+                                        scene_.drawnBallRadius(), scene_.look.parts.bars ? scene_.barRadius : 0,
+                                        scene_.drawnBallColor(),  style_.bar};
         if (scene_.look.parts.faces && !scene_.needsDepthBuffer) {
             addFaces(set_, slice, part, scene_.faceOpacity,
                      [this](std::uint32_t f) { return scene_.coloringCellOfFace(f); });
@@ -244,12 +244,12 @@ class PovWriter {
         if (larger > 1) objects_ += "// It is farther away and larger, so that it is seen behind the slices.\n";
         for (std::size_t i = 0; i < projection.parts.size(); ++i) {
             const scene::ProjectionPartLook& look = projection.parts[i];
-            const PovPlacement part{position,
-                                    larger * projection.scale,
-                                    larger * look.ballRadius,
-                                    larger * look.barRadius,
-                                    look.ballColor,
-                                    look.barColor};
+            const PovPlacementAndStyle part{position,
+                                            larger * projection.scale,
+                                            larger * look.ballRadius,
+                                            larger * look.barRadius,
+                                            look.ballColor,
+                                            look.barColor};
             if (projection.drawsPieces(i)) {
                 addConvexPieces(projection.fill, projection.fillCells, i, part, look.faceOpacity);
             } else {
@@ -269,7 +269,7 @@ class PovWriter {
     /// Adds the convex faces of a slice of `set`. `opacity` is the opacity of fully visible faces. `cellOf` returns the
     /// cell that gives a face its color.
     template <typename CellOf>
-    void addFaces(const slicing::SliceSet& set, std::size_t slice, const PovPlacement& part, double opacity,
+    void addFaces(const slicing::SliceSet& set, std::size_t slice, const PovPlacementAndStyle& part, double opacity,
                   CellOf cellOf) {
         PovMesh mesh;
         mesh.isLitFromBehind = true;
@@ -289,7 +289,7 @@ class PovWriter {
     /// Adds the convex pieces into which the faces of a slice of `fill` are divided. `cells` contains the cell that
     /// gives each face its color. `opacity` is the opacity of fully visible faces.
     void addConvexPieces(const slicing::FilledFaces& fill, const std::vector<std::uint32_t>& cells, std::size_t slice,
-                         const PovPlacement& part, double opacity) {
+                         const PovPlacementAndStyle& part, double opacity) {
         PovMesh mesh;
         mesh.isLitFromBehind = true;
         for (std::uint32_t f = fill.faceBegin[slice]; f < fill.faceBegin[slice + 1]; ++f) {
@@ -306,7 +306,7 @@ class PovWriter {
         appendPovMesh(objects_, mesh);
     }
 
-    void addSurfaces(std::size_t slice, const PovPlacement& part) {
+    void addSurfaces(std::size_t slice, const PovPlacementAndStyle& part) {
         const FieldSliceSurface exported = surfaces_->surfaceOfSlice(static_cast<int>(slice));
         const slicing::SliceSurface& surface = exported.surface;
         triangles_ += surface.triangles.size();
@@ -319,7 +319,7 @@ class PovWriter {
 
     /// Adds the smooth level set of a level or, if `ofCaps`, its flat caps. The level set and the caps are separate
     /// meshes, because the points on their common rim have different normals and colors in each mesh.
-    void addSurface(const slicing::SliceSurface& surface, std::size_t slice, const PovPlacement& part,
+    void addSurface(const slicing::SliceSurface& surface, std::size_t slice, const PovPlacementAndStyle& part,
                     const scene::SurfaceLook::LevelLook& level, bool ofCaps) {
         PovMesh mesh;
         // For each point of the surface: its index in the mesh.
@@ -353,7 +353,7 @@ class PovWriter {
         return look.color(level, slice);
     }
 
-    void addBalls(const slicing::SliceSet& set, std::size_t slice, const PovPlacement& part) {
+    void addBalls(const slicing::SliceSet& set, std::size_t slice, const PovPlacementAndStyle& part) {
         for (std::uint32_t v = set.vertexBegin[slice]; part.ballRadius > 0 && v < set.vertexBegin[slice + 1]; ++v) {
             const std::uint32_t source = set.vertexSource[v];
             const double own = set.ballOpacity.empty() ? 1 : set.ballOpacity[v];
@@ -361,11 +361,11 @@ class PovWriter {
             if (opacity == 0) continue;
             const auto radius = static_cast<float>(part.ballRadius * (set.ballScale.empty() ? 1 : set.ballScale[v]));
             objects_ += "sphere { " + povVector(part(set.vertices[v])) + ", " + povNumber(radius);
-            endShape(scene_.highlight.hasVertex(source) ? style_.highlight : part.ballColor, opacity);
+            appendTextureAndEndShape(scene_.highlight.hasVertex(source) ? style_.highlight : part.ballColor, opacity);
         }
     }
 
-    void addBars(const slicing::SliceSet& set, std::size_t slice, const PovPlacement& part) {
+    void addBars(const slicing::SliceSet& set, std::size_t slice, const PovPlacementAndStyle& part) {
         const std::uint32_t first = set.vertexBegin[slice];
         for (std::uint32_t e = set.edgeBegin[slice]; part.barRadius > 0 && e < set.edgeBegin[slice + 1]; ++e) {
             const std::uint32_t source = set.edgeSource[e];
@@ -375,14 +375,14 @@ class PovWriter {
             if (opacity == 0 || glm::distance(a, b) < kShortestPovBar) continue;
             objects_ += "cylinder { " + povVector(a) + ", " + povVector(b) + ", " +
                         povNumber(static_cast<float>(part.barRadius));
-            endShape(scene_.highlight.hasEdge(source) ? style_.highlight : part.barColor, opacity);
+            appendTextureAndEndShape(scene_.highlight.hasEdge(source) ? style_.highlight : part.barColor, opacity);
         }
     }
 
     /// Appends the texture and the closing braces of a ball or bar. A line of sight crosses the surface of the shape
     /// twice. Each crossing transmits the fraction √(1 − opacity) of the light, so that the whole shape has the opacity
     /// `opacity`.
-    void endShape(scene::Color color, double opacity) {
+    void appendTextureAndEndShape(scene::Color color, double opacity) {
         const std::uint32_t texture = textures_.textureNumberOf(color, 1 - std::sqrt(1 - opacity), kShiny);
         objects_ += " texture { " + PovTextures::textureName(texture) + " } }\n";
     }

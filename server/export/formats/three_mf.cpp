@@ -24,7 +24,7 @@ using Lib3mfPointer = std::unique_ptr<Thing, decltype(&lib3mf_release)>;
 // Calls `make(&pointer)`, which creates a lib3mf object, and returns an owning pointer to this object. Throws an
 // exception with the message `what` if the call fails.
 template <typename Thing, typename Make>
-Lib3mfPointer<Thing> makeOwned(const char* what, Make&& make) {
+Lib3mfPointer<Thing> makeOwnedLib3mfObject(const char* what, Make&& make) {
     Thing* made = nullptr;
     throwOnLib3mfError(make(&made), what);
     return {made, &lib3mf_release};
@@ -62,14 +62,14 @@ void addMesh(PLib3MFModel* model, const PlacedMesh& solid) {
     std::vector<MODELMESHTRIANGLE> triangles;
     triangles.reserve(solid.mesh.triangles.size());
     for (const auto& [a, b, c] : solid.mesh.triangles) triangles.push_back({{a, b, c}});
-    const auto object = makeOwned<PLib3MFModelMeshObject>(
+    const auto object = makeOwnedLib3mfObject<PLib3MFModelMeshObject>(
         "cannot create an object", [&](auto** out) { return lib3mf_model_addmeshobject(model, out); });
     throwOnLib3mfError(lib3mf_meshobject_setgeometry(object.get(), points.data(), static_cast<DWORD>(points.size()),
                                                      triangles.data(), static_cast<DWORD>(triangles.size())),
                        "cannot set the mesh");
     throwOnLib3mfError(lib3mf_object_setnameutf8(object.get(), removeNonXmlCharacters(solid.name).c_str()),
                        "cannot name the object");
-    makeOwned<PLib3MFModelBuildItem>("cannot add the object to the build", [&](auto** out) {
+    makeOwnedLib3mfObject<PLib3MFModelBuildItem>("cannot add the object to the build", [&](auto** out) {
         return lib3mf_model_addbuilditem(model, object.get(), nullptr, out);
     });
 }
@@ -77,8 +77,8 @@ void addMesh(PLib3MFModel* model, const PlacedMesh& solid) {
 }  // namespace
 
 std::string threeMf(const MeshesToWrite& meshes) {
-    const auto model =
-        makeOwned<PLib3MFModel>("cannot create a model", [](auto** out) { return lib3mf_createmodel(out); });
+    const auto model = makeOwnedLib3mfObject<PLib3MFModel>("cannot create a model",
+                                                           [](auto** out) { return lib3mf_createmodel(out); });
     throwOnLib3mfError(lib3mf_model_setunit(model.get(), MODELUNIT_MILLIMETER), "cannot set the unit");
     // Escape the title, because lib3mf escapes names, but not metadata.
     throwOnLib3mfError(lib3mf_model_addmetadatautf8(model.get(), "Title", xmlEscaped(meshes.title).c_str()),
@@ -89,7 +89,7 @@ std::string threeMf(const MeshesToWrite& meshes) {
         meshes.budget.checkTimeAndStop();
         addMesh(model.get(), solid);
     }
-    const auto writer = makeOwned<PLib3MFModelWriter>(
+    const auto writer = makeOwnedLib3mfObject<PLib3MFModelWriter>(
         "cannot create a writer", [&](auto** out) { return lib3mf_model_querywriter(model.get(), "3mf", out); });
     throwOnLib3mfError(
         lib3mf_writer_setprogresscallback(writer.get(), &onWriteProgress, const_cast<ExportBudget*>(&meshes.budget)),

@@ -232,8 +232,8 @@ std::string vtp(const SceneToWrite& source) {
     }
     if (!empty.empty()) {
         const char* const fault = data.elements == ListedElementKind::faces ? "without faces" : "empty";
-        source.warnings.push_back(warningOfOmission(source.scene.slices->planes, empty, fault,
-                                                    slicing::infoOf(source.object).originInFile.w));
+        source.warnings.push_back(omittedSlicesWarning(source.scene.slices->planes, empty, fault,
+                                                       slicing::infoOf(source.object).originInFile.w));
     }
     return vtkFile("PolyData", "", pieceElement(data, field, source.scene.axisUnits, isField && source.exact));
 }

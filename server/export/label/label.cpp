@@ -72,7 +72,8 @@ std::map<std::uint32_t, BodyFace> facesOf(const Mesh& mesh) {
 /// Returns a place with the text in the middle of `face`, in the largest size that leaves a margin of kMargin. The text
 /// runs along `right` or, if the letters would then be upside down, in the opposite direction. The caller must set
 /// `cell` and `depth` of the result.
-TextPlacement fitText(const Mesh& mesh, const BodyFace& face, const glm::dvec3& right, const TextOutlines& text) {
+TextPlacement largestTextPlacement(const Mesh& mesh, const BodyFace& face, const glm::dvec3& right,
+                                   const TextOutlines& text) {
     TextPlacement placement{kNoCell, &text, face.middle, right, glm::cross(face.normal, right), face.normal, 1e300, 0};
     if (placement.up.z < -1e-9 || (std::abs(placement.up.z) < 1e-9 && placement.up.y < 0)) {
         placement.right = -placement.right;
@@ -94,7 +95,8 @@ TextPlacement fitText(const Mesh& mesh, const BodyFace& face, const glm::dvec3& 
 /// Returns the depth of letters, the least of three lengths: kMaxDepth; a quarter of the letters' height; and half the
 /// distance by which the rectangle around the text can be moved into the body before it meets the plane of another
 /// face.
-double depthAt(const TextPlacement& placement, const std::map<std::uint32_t, BodyFace>& faces, const Mesh& mesh) {
+double engravingDepthAt(const TextPlacement& placement, const std::map<std::uint32_t, BodyFace>& faces,
+                        const Mesh& mesh) {
     double depth = kMaxDepth;
     const glm::dvec2 half = (placement.text->size / 2.0 + kMargin / 2) * placement.height;
     for (const auto& [cell, face] : faces) {
@@ -183,7 +185,7 @@ bool engraveText(Mesh& mesh, const BodyFace& face, const TextPlacement& placemen
 }  // namespace
 
 LabelText::LabelText(const std::string& name, const std::string& w)
-    : versions_{letteringOf({name + "  " + w}), letteringOf({name, w})} {}
+    : versions_{textOutlinesOf({name + "  " + w}), textOutlinesOf({name, w})} {}
 
 bool LabelText::engrave(Mesh& mesh, double size, const RoundingGrid& grid, const ExportBudget& budget) const {
     const auto faces = facesOf(mesh);
@@ -195,11 +197,11 @@ bool LabelText::engrave(Mesh& mesh, double size, const RoundingGrid& grid, const
             const glm::dvec3 along = mesh.points[face.loop[(i + 1) % face.loop.size()]] - mesh.points[face.loop[i]];
             const glm::dvec3 right = glm::normalize(along - glm::dot(along, face.normal) * face.normal);
             for (const TextOutlines& text : versions_) {
-                TextPlacement placement = fitText(mesh, face, right, text);
+                TextPlacement placement = largestTextPlacement(mesh, face, right, text);
                 placement.cell = cell;
                 placement.height = std::min(placement.height, size / 10);
                 if (placement.height < kMinHeight) continue;
-                placement.depth = depthAt(placement, faces, mesh);
+                placement.depth = engravingDepthAt(placement, faces, mesh);
                 if (placement.depth >= kMinDepth) placements.push_back(placement);
             }
         }
@@ -233,7 +235,7 @@ Mesh LabelText::makeLabelPlate(double size, const RoundingGrid& grid) const {
     }
     const auto faces = facesOf(mesh);
     const BodyFace& top = faces.at(5);
-    TextPlacement placement = fitText(mesh, top, {1, 0, 0}, text);
+    TextPlacement placement = largestTextPlacement(mesh, top, {1, 0, 0}, text);
     placement.cell = 5;
     placement.height = height;
     placement.depth = std::min(kMaxDepth, height / 4);

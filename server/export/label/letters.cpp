@@ -110,14 +110,14 @@ class TextOutliner {
 };
 
 /// Removes each point that is equal to the point before it. The last point counts as the point before the first.
-void removeDuplicates(Contour& contour) {
+void removeRepeatedPoints(Contour& contour) {
     contour.erase(std::unique(contour.begin(), contour.end()), contour.end());
     while (contour.size() > 1 && contour.front() == contour.back()) contour.pop_back();
 }
 
 }  // namespace
 
-TextOutlines letteringOf(const std::vector<std::string>& lines) {
+TextOutlines textOutlinesOf(const std::vector<std::string>& lines) {
     TextOutliner pen;
     std::vector<Contour> drawn;
     double y = 0;
@@ -129,13 +129,13 @@ TextOutlines letteringOf(const std::vector<std::string>& lines) {
         }
         y -= kLineStep;
     }
-    for (Contour& contour : drawn) removeDuplicates(contour);
+    for (Contour& contour : drawn) removeRepeatedPoints(contour);
     TextOutlines out;
     out.contours = outlineOf(drawn);
     glm::dvec2 least(1e300);
     glm::dvec2 most(-1e300);
     for (Contour& contour : out.contours) {
-        removeDuplicates(contour);
+        removeRepeatedPoints(contour);
         for (const glm::dvec2& p : contour) {
             least = glm::min(least, p);
             most = glm::max(most, p);

@@ -16,6 +16,6 @@ struct TextOutlines {
 
 /// Returns the outlines of lines of UTF-8 text. Each line is centered below the previous line. The result has no
 /// contours if no character has an outline. Throws std::runtime_error if the font cannot be read.
-TextOutlines letteringOf(const std::vector<std::string>& lines);
+TextOutlines textOutlinesOf(const std::vector<std::string>& lines);
 
 }  // namespace oval4d::exports

@@ -12,8 +12,8 @@ namespace {
 // Returns the colors of the points of a surface, as in the picture. Points on the rims of caps belong to the caps and
 // to the level set; they get the color of the level set. One pass is enough, because triangles of the level set come
 // before triangles of the caps.
-std::vector<scene::Color> colorsOf(const slicing::SliceSurface& surface, std::size_t level, scene::Color color,
-                                   const scene::SurfaceLook& look) {
+std::vector<scene::Color> pointColorsOf(const slicing::SliceSurface& surface, std::size_t level, scene::Color color,
+                                        const scene::SurfaceLook& look) {
     std::vector<scene::Color> colors(surface.points.size(), color);
     if (!look.colorsPoints() && !look.colorsCapPoints()) return colors;
     std::vector<bool> onLevelSet(surface.points.size());
@@ -48,7 +48,7 @@ Mesh fieldBodyOf(const scene::Scene& scene, const FieldSliceSurface& slice, int 
     SnappedSurface snapped = snapSurface(points, triangles, grid, budget);
     if (!isThickEnough(snapped.mesh, grid)) return {};
     const auto colors =
-        colorsOf(surface, look.index, scene.surfaces.color(look, static_cast<std::size_t>(i)), scene.surfaces);
+        pointColorsOf(surface, look.index, scene.surfaces.color(look, static_cast<std::size_t>(i)), scene.surfaces);
     for (const std::uint32_t source : snapped.source) {
         snapped.mesh.pointColors.push_back(colors[source]);
         snapped.mesh.pointValues.push_back(surface.values[source]);

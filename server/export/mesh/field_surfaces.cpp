@@ -15,7 +15,7 @@ namespace oval4d::exports {
 
 namespace {
 
-std::vector<std::size_t> allLevels(const scene::Scene& scene) {
+std::vector<std::size_t> allLevelIndices(const scene::Scene& scene) {
     std::vector<std::size_t> levels(scene.look.field.levels.size());
     std::iota(levels.begin(), levels.end(), std::size_t{0});
     return levels;
@@ -37,7 +37,7 @@ FieldSurfaceSource::FieldSurfaceSource(const scene::Scene& scene, const fields::
 
 FieldSurfaceSource::FieldSurfaceSource(const scene::Scene& scene, const fields::Field& field,
                                        const geometry::Rotation& orientation, bool exact, const ExportBudget& budget)
-    : FieldSurfaceSource(scene, field, orientation, exact, allLevels(scene), budget) {}
+    : FieldSurfaceSource(scene, field, orientation, exact, allLevelIndices(scene), budget) {}
 
 FieldSliceSurface FieldSurfaceSource::surfaceOfSlice(int i) {
     if (!slicer_) return {scene_.slices->surfaces[static_cast<std::size_t>(i)], {}};

@@ -98,7 +98,7 @@ class HalfEdgeMesh {
         constexpr int kRounds = 4;
         for (int round = 0; round < kRounds; ++round) {
             for (std::uint32_t t = 0; t < removed_.size(); ++t) {
-                if (removed_[t] || !isFlat(3 * t)) continue;
+                if (removed_[t] || !isDegenerateTriangleAt(3 * t)) continue;
                 std::uint32_t longest = 3 * t;
                 for (std::uint32_t edge = 3 * t + 1; edge < 3 * t + 3; ++edge)
                     longest = lengthOf(edge) > lengthOf(longest) ? edge : longest;
@@ -109,7 +109,7 @@ class HalfEdgeMesh {
     }
 
     /// Moves each point that has the same position as an earlier point to a free grid point nearby.
-    void separatePoints() {
+    void separateCoincidingPoints() {
         PositionSet taken;
         for (std::uint32_t point = 0; point < at_.size(); ++point) {
             if (outgoing_[point] == kNone || removed_[triangleOf(outgoing_[point])]) continue;
@@ -193,7 +193,7 @@ class HalfEdgeMesh {
         origins_ = std::move(pointOf);
     }
 
-    void findNeighbors(std::uint32_t edge, std::vector<std::uint32_t>& out) const {
+    void findNeighborsOfOrigin(std::uint32_t edge, std::vector<std::uint32_t>& out) const {
         out.clear();
         std::uint32_t around = edge;
         do {
@@ -208,8 +208,8 @@ class HalfEdgeMesh {
     // a tetrahedron, which would become flat.
     bool collapseEdge(std::uint32_t edge) {
         const std::uint32_t twin = twins_[edge], kept = origins_[edge], lost = origins_[twin];
-        findNeighbors(edge, neighbors_);
-        findNeighbors(twin, otherNeighbors_);
+        findNeighborsOfOrigin(edge, neighbors_);
+        findNeighborsOfOrigin(twin, otherNeighbors_);
         common_.clear();
         std::ranges::set_intersection(neighbors_, otherNeighbors_, std::back_inserter(common_));
         if (common_.size() != 2 || (neighbors_.size() == 3 && otherNeighbors_.size() == 3)) return false;
@@ -241,7 +241,9 @@ class HalfEdgeMesh {
         return productsAreEqual(a.y, b.z, a.z, b.y) && productsAreEqual(a.z, b.x, a.x, b.z) &&
                productsAreEqual(a.x, b.y, a.y, b.x);
     }
-    bool isFlat(std::uint32_t edge) const { return areParallel(vectorOf(edge), vectorOf(nextHalfEdge(edge))); }
+    bool isDegenerateTriangleAt(std::uint32_t edge) const {
+        return areParallel(vectorOf(edge), vectorOf(nextHalfEdge(edge)));
+    }
 
     // Flips an edge: replaces it by an edge between the third corners of the two triangles at the edge. Changes nothing
     // if an edge already joins these corners, or if the corners of a new triangle would lie on a line.
@@ -249,7 +251,7 @@ class HalfEdgeMesh {
         const std::uint32_t g = twins_[h], h1 = nextHalfEdge(h), h2 = previousHalfEdge(h), g1 = nextHalfEdge(g),
                             g2 = previousHalfEdge(g);
         const std::uint32_t p = origins_[h], r = origins_[g], q = origins_[h2], s = origins_[g2];
-        findNeighbors(h2, neighbors_);
+        findNeighborsOfOrigin(h2, neighbors_);
         if (q == s || std::ranges::binary_search(neighbors_, s)) return;
         const auto isLine = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
             return areParallel(vectorBetween(a, b), vectorBetween(a, c));
@@ -303,7 +305,7 @@ SnappedSurface snapSurface(std::span<const glm::dvec3> points, std::span<const s
     surface.removeSmallParts(kLeastSteps);
     surface.collapseEdges();
     surface.flipDegenerateTriangles();
-    surface.separatePoints();
+    surface.separateCoincidingPoints();
     return surface.toSnappedSurface();
 }
 

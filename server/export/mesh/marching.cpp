@@ -81,7 +81,7 @@ class MarchingTetrahedra {
     void loadInsideFlags(const glm::ivec3& corner) {
         inside_.fill(false);
         for (unsigned c = 0; c < 8; ++c) {
-            const SampledField::ValueBlock* block = field_.find(corner + kSide * cornerOffset(c));
+            const SampledField::ValueBlock* block = field_.findBlock(corner + kSide * cornerOffset(c));
             if (block == nullptr) continue;
             const glm::ivec3 shift = kSide * cornerOffset(c);
             const glm::ivec3 count = glm::mix(glm::ivec3(kSide), glm::ivec3(1), glm::bvec3(cornerOffset(c)));
@@ -131,7 +131,7 @@ class MarchingTetrahedra {
     // edge of a tetrahedron, the bits of one end are a subset of the bits of the other end.
     std::uint32_t findOrAddVertex(const glm::ivec3& at, unsigned inside, unsigned outside) {
         const glm::ivec3 lower = at + cornerOffset(inside & outside);
-        auto& ids = edgePointsOfBlock(lower);
+        auto& ids = findOrAddEdgePointTable(lower);
         std::uint32_t& id = ids[static_cast<std::size_t>(indexInBlock(lower)) * 7 + (inside ^ outside) - 1];
         if (id == kNone) {
             id = static_cast<std::uint32_t>(mesh_.points.size());
@@ -160,7 +160,7 @@ class MarchingTetrahedra {
     // Returns the table of mesh points for the block that contains `point`. Each point of the block has seven entries,
     // one for each direction of an edge (see cornerOffset()): the index of the mesh point on this edge, or kNone.
     // Creates the table at the first call for a block.
-    EdgePointIndices& edgePointsOfBlock(const glm::ivec3& point) {
+    EdgePointIndices& findOrAddEdgePointTable(const glm::ivec3& point) {
         const std::uint64_t key = pointKey(point);
         if (last_ == nullptr || lastKey_ != key) {
             auto& ids = ids_[key];
@@ -204,13 +204,13 @@ float& SampledField::operator[](const glm::ivec3& point) {
     return last_->values[indexInBlock(point)];
 }
 
-const SampledField::ValueBlock* SampledField::find(const glm::ivec3& point) const {
+const SampledField::ValueBlock* SampledField::findBlock(const glm::ivec3& point) const {
     const auto found = blocks_.find(pointKey(point));
     return found == blocks_.end() ? nullptr : found->second.get();
 }
 
 float SampledField::value(const glm::ivec3& point) const {
-    const ValueBlock* block = find(point);
+    const ValueBlock* block = findBlock(point);
     return block != nullptr ? block->values[indexInBlock(point)] : std::numeric_limits<float>::infinity();
 }
 

@@ -56,7 +56,7 @@ class SampledField {
     /// Returns all blocks, in an order that depends only on their positions.
     std::vector<const ValueBlock*> blocks() const;
     /// Returns the block that contains the point, or nullptr if there is no such block.
-    const ValueBlock* find(const glm::ivec3& point) const;
+    const ValueBlock* findBlock(const glm::ivec3& point) const;
 
   private:
     glm::dvec3 origin_;

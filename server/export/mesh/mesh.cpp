@@ -120,7 +120,7 @@ void BoundingBox::include(const glm::dvec3& point) {
     max = glm::max(max, point);
 }
 
-BoundingBox boxOf(const Mesh& mesh) {
+BoundingBox boundingBoxOf(const Mesh& mesh) {
     BoundingBox box;
     for (const glm::dvec3& point : mesh.points) box.include(point);
     return box;

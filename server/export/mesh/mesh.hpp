@@ -92,6 +92,6 @@ struct BoundingBox {
     glm::dvec3 size() const { return max - min; }
 };
 /// Returns the bounding box of the mesh's points.
-BoundingBox boxOf(const Mesh& mesh);
+BoundingBox boundingBoxOf(const Mesh& mesh);
 
 }  // namespace oval4d::exports

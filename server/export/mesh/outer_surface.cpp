@@ -50,7 +50,7 @@ class OuterSurfaceMesher {
         // might lie exactly on faces.
         SampledField field(box_.min - glm::dvec3(0.371, 0.217, 0.449) * cube, cube);
         markInterior(field);
-        sortIntoBoxes(4 * cube);
+        sortTrianglesIntoBoxes(4 * cube);
         return marchTetrahedra(
             field,
             [&](const glm::ivec3& inside, const glm::ivec3& outside) {
@@ -131,7 +131,7 @@ class OuterSurfaceMesher {
     }
 
     /// Divides space into cubic boxes with this width. Sets boxes_: for each box, the triangles that may intersect it.
-    void sortIntoBoxes(double width) {
+    void sortTrianglesIntoBoxes(double width) {
         width_ = width;
         for (std::uint32_t p = 0; p < triangles_.size(); ++p) {
             budget_.checkTimeAndStop();

@@ -89,7 +89,7 @@ SkeletonRadii skeletonRadii(const scene::Scene& scene, double scale) {
     return {scene.ballRadius / scene.scale * scale, scene.barRadius / scene.scale * scale};
 }
 
-double estimateTriangles(const slicing::SliceSet& slices, double scale, const SkeletonRadii& radii) {
+double estimateSkeletonTriangles(const slicing::SliceSet& slices, double scale, const SkeletonRadii& radii) {
     double area = 0;
     for (std::size_t v = 0; v < slices.vertices.size(); ++v)
         area += slices.hasBall(v) ? 4 * std::numbers::pi * radii.ball * radii.ball : 0;

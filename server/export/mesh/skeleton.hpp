@@ -19,7 +19,7 @@ SkeletonRadii skeletonRadii(const scene::Scene& scene, double scale);
 /// Returns an estimate of the number of triangles in the skeletons of all slices, if skeletonOf() uses cubes as wide as
 /// the radius of a bar. Cubes half as wide give four times as many triangles. `scale` is in millimeters per unit of the
 /// polytope.
-double estimateTriangles(const slicing::SliceSet& slices, double scale, const SkeletonRadii& radii);
+double estimateSkeletonTriangles(const slicing::SliceSet& slices, double scale, const SkeletonRadii& radii);
 
 /// Returns the skeleton of slice i, meshed by marching tetrahedra. The cubes are `cube` millimeters wide. `scale` is in
 /// millimeters per unit of the polytope. Throws ExportRefused if `budget` is exceeded.

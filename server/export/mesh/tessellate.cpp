@@ -27,7 +27,7 @@ using TessellatorCorner = decltype(TessellatorData::corners)::value_type;
 
 void beginContour(GLenum /*kind*/, void* to) { static_cast<TessellatorData*>(to)->contours.emplace_back(); }
 
-void vertex(void* data, void* to) {
+void addOutputVertex(void* data, void* to) {
     auto* tessellation = static_cast<TessellatorData*>(to);
     const auto* corner = static_cast<TessellatorCorner*>(data);
     tessellation->out.push_back(corner->second);
@@ -47,7 +47,7 @@ void addCrossing(GLdouble* at, void** /*joined*/, GLfloat* /*weights*/, void** m
 void recordFailure(GLenum /*code*/, void* to) { static_cast<TessellatorData*>(to)->failed = true; }
 
 template <typename Function>
-_GLUfuncptr callback(Function* function) {
+_GLUfuncptr asGluCallback(Function* function) {
     return reinterpret_cast<_GLUfuncptr>(function);
 }
 
@@ -57,11 +57,11 @@ TessellatorData tessellate(const std::vector<Contour>& contours, bool outline) {
     gluTessProperty(tess.get(), GLU_TESS_WINDING_RULE, GLU_TESS_WINDING_NONZERO);
     gluTessProperty(tess.get(), GLU_TESS_BOUNDARY_ONLY, outline ? GL_TRUE : GL_FALSE);
     gluTessNormal(tess.get(), 0, 0, 1);
-    gluTessCallback(tess.get(), GLU_TESS_BEGIN_DATA, callback(&beginContour));
-    gluTessCallback(tess.get(), GLU_TESS_VERTEX_DATA, callback(&vertex));
-    gluTessCallback(tess.get(), GLU_TESS_COMBINE_DATA, callback(&addCrossing));
-    gluTessCallback(tess.get(), GLU_TESS_ERROR_DATA, callback(&recordFailure));
-    if (!outline) gluTessCallback(tess.get(), GLU_TESS_EDGE_FLAG_DATA, callback(&ignoreEdgeFlag));
+    gluTessCallback(tess.get(), GLU_TESS_BEGIN_DATA, asGluCallback(&beginContour));
+    gluTessCallback(tess.get(), GLU_TESS_VERTEX_DATA, asGluCallback(&addOutputVertex));
+    gluTessCallback(tess.get(), GLU_TESS_COMBINE_DATA, asGluCallback(&addCrossing));
+    gluTessCallback(tess.get(), GLU_TESS_ERROR_DATA, asGluCallback(&recordFailure));
+    if (!outline) gluTessCallback(tess.get(), GLU_TESS_EDGE_FLAG_DATA, asGluCallback(&ignoreEdgeFlag));
     gluTessBeginPolygon(tess.get(), &tessellation);
     for (const Contour& contour : contours) {
         gluTessBeginContour(tess.get());

@@ -15,10 +15,10 @@ namespace oval4d::fields {
 
 namespace {
 
-SampleStorage checkedSamples(SampleStorage samples, const Shape& shape, bool eager) {
+SampleStorage checkSamplesAndAdviseAccess(SampleStorage samples, const Shape& shape, bool eager) {
     if (samples.values().size() != sampleCount(shape))
         throw std::invalid_argument("the number of samples does not match the shape of the array");
-    samples.expectAccess(eager ? SampleStorage::AccessOrder::sequential : SampleStorage::AccessOrder::random);
+    samples.adviseAccessOrder(eager ? SampleStorage::AccessOrder::sequential : SampleStorage::AccessOrder::random);
     return samples;
 }
 
@@ -38,20 +38,20 @@ std::pair<std::size_t, std::size_t> sampleIndicesBetween(const LatticeAxis& axis
 ArrayFunction::ArrayFunction(const Shape& shape, const Box& box, SampleStorage samples, std::size_t eagerSamples)
     : lattice_(shape, box),
       eagerSamples_(eagerSamples),
-      samples_(checkedSamples(std::move(samples), shape, sampleCount(shape) <= eagerSamples)),
+      samples_(checkSamplesAndAdviseAccess(std::move(samples), shape, sampleCount(shape) <= eagerSamples)),
       bricks_({lattice_, samples_.values().data()}, hasReadSamples()),
       coarser_(hasReadSamples() && this->samples().size() > kMaxSamplesWithoutCoarser ? downsampled() : nullptr) {
-    samples_.expectAccess(SampleStorage::AccessOrder::random);
+    samples_.adviseAccessOrder(SampleStorage::AccessOrder::random);
     releasePages();
 }
 
 void ArrayFunction::evaluate(const PointBatch& points, std::span<float> values) const {
-    interpolate({lattice_, samples_.values().data()}, points, values, fastestInstructions());
+    interpolate({lattice_, samples_.values().data()}, points, values, fastestInstructionSet());
 }
 
 void ArrayFunction::evaluateWithGradient(const PointBatch& points, std::span<float> values,
                                          const GradientBatch& gradients) const {
-    interpolateWithGradient({lattice_, samples_.values().data()}, points, values, gradients, fastestInstructions());
+    interpolateWithGradient({lattice_, samples_.values().data()}, points, values, gradients, fastestInstructionSet());
 }
 
 ValueBounds ArrayFunction::boundsIn(const Box& region) const {
@@ -73,13 +73,13 @@ ValueBounds ArrayFunction::boundsIn(const Box& region) const {
     return bounds;
 }
 
-Shape ArrayFunction::selectionSize() const {
+Shape ArrayFunction::sampleSelectionShape() const {
     return selectionShape(shape(), std::min(kSelectedSamples, eagerSamples_));
 }
 
 const ArrayFunction& ArrayFunction::sampleSelection() const {
     std::call_once(selected_, [&] {
-        const Shape size = selectionSize();
+        const Shape size = sampleSelectionShape();
         selection_ =
             std::make_shared<ArrayFunction>(size, box(), SampleStorage(selectSamples(shape(), samples_, size)));
         releasePages();
@@ -108,7 +108,7 @@ void ArrayFunction::releasePages() const {
 std::size_t ArrayFunction::memoryBytes() const {
     std::size_t coarser = coarser_ == nullptr ? 0 : coarser_->memoryBytes();
     if (!hasReadSamples()) {
-        const std::size_t bytes = sampleCount(selectionSize()) * sizeof(float);
+        const std::size_t bytes = sampleCount(sampleSelectionShape()) * sizeof(float);
         coarser = bytes + bytes / 10;  // the selection, and a tenth more for its BrickBounds and its downsampled
                                        // versions
     }
@@ -117,9 +117,9 @@ std::size_t ArrayFunction::memoryBytes() const {
 
 std::shared_ptr<const ArrayFunction> ArrayFunction::downsampled() const {
     const Shape coarse = downsampledShape(lattice_.shape);
-    samples_.expectAccess(SampleStorage::AccessOrder::sequential);
+    samples_.adviseAccessOrder(SampleStorage::AccessOrder::sequential);
     SampleStorage means(downsample(lattice_.shape, samples_.values()));
-    samples_.expectAccess(SampleStorage::AccessOrder::random);
+    samples_.adviseAccessOrder(SampleStorage::AccessOrder::random);
     return std::make_shared<ArrayFunction>(coarse, lattice_.box, std::move(means), eagerSamples_);
 }
 

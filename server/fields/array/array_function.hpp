@@ -97,7 +97,7 @@ class ArrayFunction final : public ScalarFunction {
   private:
     // Returns whether the constructor has read the samples.
     bool hasReadSamples() const { return samples().size() <= eagerSamples_; }
-    Shape selectionSize() const;
+    Shape sampleSelectionShape() const;
     const ArrayFunction& sampleSelection() const;
 
     const Lattice lattice_;

@@ -28,7 +28,7 @@ std::uint64_t packStatistics(const SampleStatistics& brick) {
     return std::uint64_t{std::bit_cast<std::uint32_t>(min)} << 32U | std::bit_cast<std::uint32_t>(max);
 }
 
-void extendByEntry(ValueBounds& bounds, std::uint64_t entry) {
+void extendByPackedStatistics(ValueBounds& bounds, std::uint64_t entry) {
     const auto maxBits = static_cast<std::uint32_t>(entry);
     bounds.min = std::min(bounds.min, double{std::bit_cast<float>(static_cast<std::uint32_t>(entry >> 32U))});
     bounds.max = std::max(bounds.max, double{std::bit_cast<float>(maxBits)});
@@ -88,7 +88,8 @@ SampleStatistics statisticsOf(const SampledLattice& from, const SampleIndexRange
 // Writes to `bricks` the statistics of a run: bricks that are neighbors along x, which together have the samples in
 // `range`. If a brick has missing samples, reads the brick again, to count these samples and leave them out of the
 // bounds.
-void readBrickRun(const SampledLattice& from, const SampleIndexRange& range, std::span<SampleStatistics> bricks) {
+void computeBrickRunStatistics(const SampledLattice& from, const SampleIndexRange& range,
+                               std::span<SampleStatistics> bricks) {
     std::array<float, kRun * kCells + 1> low, high, sum;  // sum: 0, or NaN if a sample of the column is missing
     const std::size_t count = range.last[0] - range.first[0] + 1;
     std::fill_n(low.begin(), count, kInfinityF);
@@ -121,7 +122,7 @@ void readBrickRun(const SampledLattice& from, const SampleIndexRange& range, std
 
 // Returns the number of missing samples of a brick, without samples on faces that the brick shares with an earlier
 // brick. So the sum over all bricks counts each sample once.
-std::size_t countMissingOnce(const SampledLattice& from, const std::array<std::size_t, 4>& brick) {
+std::size_t countMissingSamplesOfBrick(const SampledLattice& from, const std::array<std::size_t, 4>& brick) {
     SampleIndexRange range = sampleRangeOfBrick(from.lattice, brick);
     for (std::size_t i = 0; i < 4; ++i) range.first[i] += brick[i] > 0 ? 1 : 0;
     return statisticsOf(from, range).missing;
@@ -139,7 +140,7 @@ BrickBounds::BrickBounds(const SampledLattice& from, bool eager) : from_(from), 
     if (eager) {
         bricks.entries = eagerEntries_.emplace_back(count);
         levels_.push_back(bricks);
-        readAllSamples();
+        computeAllBrickStatistics();
         while (levels_.back().entries.size() > 1) addPyramidLevel();
         return;
     }
@@ -152,7 +153,7 @@ BrickBounds::BrickBounds(const SampledLattice& from, bool eager) : from_(from), 
     estimateStatistics();
 }
 
-void BrickBounds::readAllSamples() {
+void BrickBounds::computeAllBrickStatistics() {
     const PyramidLevel& level = levels_.front();
     const BrickIndex& size = level.size;
     std::array<SampleStatistics, kRun> run;
@@ -163,11 +164,11 @@ void BrickBounds::readAllSamples() {
             const std::size_t count = std::min(kRun, size[0] - brick[0]);
             SampleIndexRange range = sampleRangeOfBrick(from_.lattice, brick);
             range.last[0] = std::min(range.first[0] + count * kCells, from_.lattice.shape[0] - 1);
-            readBrickRun(from_, range, std::span(run).first(count));
+            computeBrickRunStatistics(from_, range, std::span(run).first(count));
             for (std::size_t i = 0; i < count; ++i) {
                 *entry++ = packStatistics(run[i]);
                 if (run[i].missing > 0)
-                    run[i].missing = countMissingOnce(from_, {brick[0] + i, brick[1], brick[2], brick[3]});
+                    run[i].missing = countMissingSamplesOfBrick(from_, {brick[0] + i, brick[1], brick[2], brick[3]});
                 add(statistics_, run[i]);
             }
         }
@@ -199,7 +200,7 @@ void BrickBounds::addPyramidLevel() {
         for (std::size_t k = 0; k < fine.size[2]; ++k) {
             for (std::size_t j = 0; j < fine.size[1]; ++j) {
                 const std::size_t row = ((l / 2 * coarse.size[2] + k / 2) * coarse.size[1] + j / 2) * coarse.size[0];
-                for (std::size_t i = 0; i < fine.size[0]; ++i) extendByEntry(joined[row + i / 2], *entry++);
+                for (std::size_t i = 0; i < fine.size[0]; ++i) extendByPackedStatistics(joined[row + i / 2], *entry++);
             }
         }
     }
@@ -211,7 +212,7 @@ void BrickBounds::addPyramidLevel() {
     levels_.push_back(coarse);
 }
 
-std::uint64_t BrickBounds::entryAt(const PyramidLevel& level, const BrickIndex& brick) const {
+std::uint64_t BrickBounds::packedStatisticsAt(const PyramidLevel& level, const BrickIndex& brick) const {
     const std::size_t index =
         ((brick[3] * level.size[2] + brick[2]) * level.size[1] + brick[1]) * level.size[0] + brick[0];
     if (eager_) return level.entries[index];
@@ -252,7 +253,8 @@ ValueBounds BrickBounds::boundsOf(const SampleIndexRange& range) const {
     for (at[3] = first[3]; at[3] <= last[3]; ++at[3]) {
         for (at[2] = first[2]; at[2] <= last[2]; ++at[2]) {
             for (at[1] = first[1]; at[1] <= last[1]; ++at[1]) {
-                for (at[0] = first[0]; at[0] <= last[0]; ++at[0]) extendByEntry(bounds, entryAt(*level, at));
+                for (at[0] = first[0]; at[0] <= last[0]; ++at[0])
+                    extendByPackedStatistics(bounds, packedStatisticsAt(*level, at));
             }
         }
     }

@@ -71,12 +71,12 @@ class BrickBounds {
         std::span<std::uint64_t> entries;
     };
 
-    void readAllSamples();
+    void computeAllBrickStatistics();
     /// Sets statistics_ to the statistics of a selection of samples, spread evenly over the array. Used for an array
     /// that is too large to be read in full.
     void estimateStatistics();
     void addPyramidLevel();
-    std::uint64_t entryAt(const PyramidLevel& level, const BrickIndex& brick) const;
+    std::uint64_t packedStatisticsAt(const PyramidLevel& level, const BrickIndex& brick) const;
 
     const SampledLattice from_;
     const bool eager_;

@@ -23,7 +23,7 @@ inline constexpr std::size_t kCellRows = 8;
 /// and w.
 using CellRowOffsets = std::array<std::size_t, kCellRows>;
 
-inline CellRowOffsets rowOffsets(const Lattice& lattice) {
+inline CellRowOffsets cellRowOffsets(const Lattice& lattice) {
     CellRowOffsets offsets{};
     for (std::size_t row = 0; row < kCellRows; ++row) {
         for (std::size_t i = 0; i < 3; ++i) {

@@ -23,7 +23,7 @@ bool isNan(const std::array<float, 4>& point) {
 }
 
 void interpolatePortably(const SampledLattice& from, const PointBatch& points, std::span<float> values) {
-    const CellRowOffsets offsets = rowOffsets(from.lattice);
+    const CellRowOffsets offsets = cellRowOffsets(from.lattice);
     for (std::size_t i = 0; i < points.size(); ++i) {
         const auto point = pointAt(points, i);
         values[i] = isNan(point) ? kNoValue : CellPoint(from, offsets, point).value();
@@ -31,7 +31,7 @@ void interpolatePortably(const SampledLattice& from, const PointBatch& points, s
 }
 
 void gradientPortably(const SampledLattice& from, const PointBatch& points, const GradientBatch& gradients) {
-    const CellRowOffsets offsets = rowOffsets(from.lattice);
+    const CellRowOffsets offsets = cellRowOffsets(from.lattice);
     for (std::size_t i = 0; i < points.size(); ++i) {
         const auto point = pointAt(points, i);
         std::array<float, 4> gradient = CellPoint(from, offsets, point).valueAndDerivatives().derivatives;
@@ -87,7 +87,7 @@ void interpolateWithAvx2(const SampledLattice& from, const PointBatch& points, s
 
 }  // namespace
 
-InstructionSet fastestInstructions() {
+InstructionSet fastestInstructionSet() {
     static const auto fastest = avx2::isSupported() ? InstructionSet::avx2 : InstructionSet::portable;
     return fastest;
 }

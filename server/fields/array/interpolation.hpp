@@ -12,11 +12,11 @@ namespace oval4d::fields {
 /// The instruction set that interpolation uses. All instruction sets give the same results, bit for bit.
 enum class InstructionSet : std::uint8_t {
     portable,  ///< runs on every processor
-    avx2,      ///< runs only on processors with AVX2 (see fastestInstructions())
+    avx2,      ///< runs only on processors with AVX2 (see fastestInstructionSet())
 };
 
 /// Returns the fastest instruction set that this processor has.
-InstructionSet fastestInstructions();
+InstructionSet fastestInstructionSet();
 
 /// The samples to interpolate, and the lattice on which they lie.
 struct SampledLattice {

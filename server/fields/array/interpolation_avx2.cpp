@@ -28,14 +28,14 @@ constexpr std::size_t kLanes = ScalarFunction::kLanes;
 constexpr std::size_t kAhead = 4;
 
 // The members of a LatticeAxis, each copied to all lanes.
-struct AxisLanes {
+struct LatticeAxisLanes {
     __m256 origin, scale, shift, last, lastCell;
     __m256d stride;
 };
 
 // The cells of eight points. For each point: the index of the cell's first sample, the position in the cell, and
 // whether a coordinate of the point is NaN.
-struct CellLanes {
+struct LatticeCellLanes {
     std::array<std::int64_t, kLanes> first;
     __m256 t[4], nan;
 };
@@ -55,21 +55,21 @@ OVAL4D_AVX2 inline __m256 mix(__m256 a, __m256 b, __m256 t) {
 
 // Writes four whole numbers from 0 to 2^51 to `to` as integers: adds 2^52, which moves a number to the low bits of the
 // sum.
-OVAL4D_AVX2 inline void putIntegers(__m256d numbers, std::int64_t* to) {
+OVAL4D_AVX2 inline void storeAsIntegers(__m256d numbers, std::int64_t* to) {
     const __m256d rounder = _mm256_set1_pd(0x1p52);
     const __m256d integers = _mm256_xor_pd(_mm256_add_pd(numbers, rounder), rounder);
     std::memcpy(to, &integers, sizeof integers);
 }
 
 // Sets `cells` to the cells that contain the kLanes points from the index `begin` on.
-OVAL4D_AVX2 inline void locateCells(const AxisLanes* axes, const PointBatch& points, std::size_t begin,
-                                    CellLanes& cells) {
+OVAL4D_AVX2 inline void locateCells(const LatticeAxisLanes* axes, const PointBatch& points, std::size_t begin,
+                                    LatticeCellLanes& cells) {
     const __m256 at[4] = {_mm256_loadu_ps(&points.x[begin]), _mm256_loadu_ps(&points.y[begin]),
                           _mm256_loadu_ps(&points.z[begin]), _mm256_loadu_ps(&points.w[begin])};
     cells.nan = _mm256_or_ps(_mm256_cmp_ps(at[0], at[1], _CMP_UNORD_Q), _mm256_cmp_ps(at[2], at[3], _CMP_UNORD_Q));
     __m256d low = _mm256_setzero_pd(), high = low;
     for (std::size_t i = 0; i < 4; ++i) {
-        const AxisLanes& axis = axes[i];
+        const LatticeAxisLanes& axis = axes[i];
         __m256 position = _mm256_add_ps(_mm256_mul_ps(_mm256_sub_ps(at[i], axis.origin), axis.scale), axis.shift);
         position = _mm256_min_ps(_mm256_max_ps(position, _mm256_setzero_ps()), axis.last);  // NaN becomes 0
         const __m256 cell = _mm256_min_ps(_mm256_floor_ps(position), axis.lastCell);
@@ -79,11 +79,11 @@ OVAL4D_AVX2 inline void locateCells(const AxisLanes* axes, const PointBatch& poi
         low = _mm256_add_pd(low, _mm256_mul_pd(lowCell, axis.stride));
         high = _mm256_add_pd(high, _mm256_mul_pd(highCell, axis.stride));
     }
-    putIntegers(low, cells.first.data());
-    putIntegers(high, cells.first.data() + 4);
+    storeAsIntegers(low, cells.first.data());
+    storeAsIntegers(high, cells.first.data() + 4);
 }
 
-inline void prefetch(const float* samples, const CellRowOffsets& offsets, const CellLanes& cells) {
+inline void prefetch(const float* samples, const CellRowOffsets& offsets, const LatticeCellLanes& cells) {
     for (std::size_t i = 0; i < kLanes; i += 2) {
         for (const std::size_t offset : offsets) __builtin_prefetch(samples + cells.first[i] + offset);
     }
@@ -146,7 +146,7 @@ OVAL4D_AVX2 inline __m256 isFinite(const __m256& numbers) {
 }
 
 // Returns a mask of the lanes whose points lie on a face of their cell, so that some corners have the weight 0.
-OVAL4D_AVX2 inline __m256 maskOfPointsOnFaces(const CellLanes& cells) {
+OVAL4D_AVX2 inline __m256 maskOfPointsOnFaces(const LatticeCellLanes& cells) {
     __m256 faces = _mm256_setzero_ps();
     for (const __m256& t : cells.t) {
         const __m256 lower = _mm256_cmp_ps(t, _mm256_setzero_ps(), _CMP_EQ_OQ);
@@ -159,22 +159,22 @@ OVAL4D_AVX2 inline __m256 maskOfPointsOnFaces(const CellLanes& cells) {
 template <bool kGradient>
 OVAL4D_AVX2 void interpolateBatch(const SampledLattice& from, const PointBatch& points, std::span<float> values,
                                   const GradientBatch& gradients) {
-    AxisLanes axes[4];
+    LatticeAxisLanes axes[4];
     for (std::size_t i = 0; i < 4; ++i) {
         const LatticeAxis& axis = from.lattice.axes[i];
         axes[i] = {_mm256_set1_ps(axis.origin),   _mm256_set1_ps(axis.scale),
                    _mm256_set1_ps(axis.shift),    _mm256_set1_ps(axis.last),
                    _mm256_set1_ps(axis.lastCell), _mm256_set1_pd(static_cast<double>(axis.stride))};
     }
-    const CellRowOffsets offsets = rowOffsets(from.lattice);
+    const CellRowOffsets offsets = cellRowOffsets(from.lattice);
     const __m256i firstFour = _mm256_setr_epi32(0, 0, 1, 1, 2, 2, 3, 3);
     const __m256i lastFour = _mm256_setr_epi32(4, 4, 5, 5, 6, 6, 7, 7);
-    CellLanes upcoming[kAhead];  // the cells of the next kAhead groups; group g has the index g % kAhead
+    LatticeCellLanes upcoming[kAhead];  // the cells of the next kAhead groups; group g has the index g % kAhead
     for (std::size_t i = 0; i < std::min(points.size(), kAhead * kLanes); i += kLanes)
         locateCells(axes, points, i, upcoming[i / kLanes]);
     for (std::size_t i = 0; i < points.size(); i += kLanes) {
-        CellLanes& next = upcoming[i / kLanes % kAhead];
-        const CellLanes cells = next;
+        LatticeCellLanes& next = upcoming[i / kLanes % kAhead];
+        const LatticeCellLanes cells = next;
         if (const std::size_t ahead = i + kAhead * kLanes; ahead < points.size()) {
             locateCells(axes, points, ahead, next);
             prefetch(from.samples, offsets, next);

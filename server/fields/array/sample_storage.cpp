@@ -67,7 +67,7 @@ void SampleStorage::adviseKernel(std::size_t first, std::size_t count, int advic
     static_cast<void>(madvise(reinterpret_cast<void*>(begin), end - begin, advice));
 }
 
-void SampleStorage::expectAccess(AccessOrder access) const {
+void SampleStorage::adviseAccessOrder(AccessOrder access) const {
     adviseKernel(0, values_.size(), access == AccessOrder::random ? MADV_RANDOM : MADV_SEQUENTIAL);
 }
 

@@ -42,7 +42,7 @@ class SampleStorage {
     /// that are needed; `sequential` makes it read ahead.
     enum class AccessOrder : std::uint8_t { random, sequential };
     /// Advises the system of the order in which the samples are going to be read. Does nothing for samples in memory.
-    void expectAccess(AccessOrder access) const;
+    void adviseAccessOrder(AccessOrder access) const;
     /// Advises the system that `count` samples from the index `first` on are needed soon. Does nothing for samples in
     /// memory.
     void prefetch(std::size_t first, std::size_t count) const;

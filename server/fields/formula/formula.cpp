@@ -27,7 +27,7 @@ Formula::Formula(ParsedFormula parsed, const FormulaLimits& limits)
     if (text_.size() > limits_.bytes) text_ = formulaText(tree, constants, false);
     OperationGraph graph;
     const OperationGraph::NodeIndex result = buildGraph(tree, constants, graph);
-    tape_ = std::make_shared<const Tape>(compile(graph, result));
+    tape_ = std::make_shared<const Tape>(compileTape(graph, result));
 }
 
 std::string Formula::exceededLimitMessage() const {

@@ -10,40 +10,40 @@ namespace oval4d::fields {
 namespace {
 
 using NodeIndex = OperationGraph::NodeIndex;
-using Arguments = std::span<const NodeIndex>;
+using ArgumentNodes = std::span<const NodeIndex>;
 constexpr std::size_t kAny = std::numeric_limits<std::size_t>::max();
 
 template <Operation operation>
-NodeIndex unaryOperation(OperationGraph& graph, Arguments a) {
+NodeIndex unaryOperation(OperationGraph& graph, ArgumentNodes a) {
     return graph.unaryNode(operation, a[0]);
 }
 
 // Applies a binary operation to any number of arguments, from left to right.
 template <Operation operation>
-NodeIndex foldArguments(OperationGraph& graph, Arguments a) {
+NodeIndex foldArguments(OperationGraph& graph, ArgumentNodes a) {
     NodeIndex result = a[0];
     for (const NodeIndex argument : a.subspan(1)) result = graph.binaryNode(operation, result, argument);
     return result;
 }
 
-NodeIndex hypot(OperationGraph& graph, Arguments a) {
+NodeIndex hypot(OperationGraph& graph, ArgumentNodes a) {
     NodeIndex sum = graph.square(a[0]);
     for (const NodeIndex argument : a.subspan(1)) sum = graph.add(sum, graph.square(argument));
     return graph.sqrt(sum);
 }
 
-NodeIndex clamp(OperationGraph& graph, Arguments a) {
+NodeIndex clamp(OperationGraph& graph, ArgumentNodes a) {
     return graph.binaryNode(Operation::min, graph.binaryNode(Operation::max, a[0], a[1]), a[2]);
 }
 
-NodeIndex mix(OperationGraph& graph, Arguments a) {
+NodeIndex mix(OperationGraph& graph, ArgumentNodes a) {
     return graph.add(a[0], graph.multiply(graph.subtract(a[1], a[0]), a[2]));
 }
 
 // Adds Quilez's polynomial smooth minimum: min(a, b) − k h² / 4 with h = max(1 − |a − b|/k, 0) if k > 0, otherwise
 // min(a, b). `overlap` is k h = max(k − |a − b|, 0), so the correction k h² / 4 is overlap² / (4 k). For k ≤ 0,
 // `overlap` is 0, and the positive divisor makes the correction 0 instead of 0/0.
-NodeIndex smoothMin(OperationGraph& graph, Arguments a) {
+NodeIndex smoothMin(OperationGraph& graph, ArgumentNodes a) {
     const NodeIndex distance = graph.unaryNode(Operation::abs, graph.subtract(a[0], a[1]));
     const NodeIndex overlap = graph.binaryNode(Operation::max, graph.subtract(a[2], distance), graph.constant(0));
     constexpr double kLeastDivisor = std::numeric_limits<float>::min();
@@ -53,15 +53,15 @@ NodeIndex smoothMin(OperationGraph& graph, Arguments a) {
     return graph.subtract(graph.binaryNode(Operation::min, a[0], a[1]), correction);
 }
 
-NodeIndex ceil(OperationGraph& graph, Arguments a) {
+NodeIndex ceil(OperationGraph& graph, ArgumentNodes a) {
     return graph.negate(graph.unaryNode(Operation::floor, graph.negate(a[0])));
 }
 
-NodeIndex round(OperationGraph& graph, Arguments a) {
+NodeIndex round(OperationGraph& graph, ArgumentNodes a) {
     return graph.unaryNode(Operation::floor, graph.add(a[0], graph.constant(0.5)));
 }
 
-NodeIndex radians(OperationGraph& graph, Arguments a) {
+NodeIndex radians(OperationGraph& graph, ArgumentNodes a) {
     return graph.multiply(a[0], graph.constant(std::numbers::pi / 180));
 }
 

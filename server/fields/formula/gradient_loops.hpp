@@ -128,7 +128,7 @@ class TapeDifferentiator : private TapeEvaluator<Math> {
     }
 
     template <typename F, typename A, typename B>
-    static void fill(F f, BlockValuesAndPartials& out, A a, B b, std::size_t size) {
+    static void setValuesAndPartials(F f, BlockValuesAndPartials& out, A a, B b, std::size_t size) {
 #pragma omp simd
         for (std::size_t i = 0; i < size; ++i) {
             const ValueAndPartials partial = f(a[i], b[i]);
@@ -138,16 +138,16 @@ class TapeDifferentiator : private TapeEvaluator<Math> {
         }
     }
     template <typename F>
-    static void fill(F f, const Instruction& instruction, BlockValuesAndPartials& out, const float* a, const float* b,
-                     std::size_t size) {
+    static void setValuesAndPartials(F f, const Instruction& instruction, BlockValuesAndPartials& out, const float* a,
+                                     const float* b, std::size_t size) {
         const NumberOperand number{static_cast<float>(instruction.number)};
         switch (instruction.form) {
             case OperandForm::two_registers:
-                return fill(f, out, ArrayOperand{a}, ArrayOperand{b}, size);
+                return setValuesAndPartials(f, out, ArrayOperand{a}, ArrayOperand{b}, size);
             case OperandForm::register_and_number:
-                return fill(f, out, ArrayOperand{a}, number, size);
+                return setValuesAndPartials(f, out, ArrayOperand{a}, number, size);
             case OperandForm::number_and_register:
-                return fill(f, out, number, ArrayOperand{b}, size);
+                return setValuesAndPartials(f, out, number, ArrayOperand{b}, size);
         }
     }
     // Sets out.byA to f(operand, out.value), the partial derivative of an operation with one operand.
@@ -161,30 +161,33 @@ class TapeDifferentiator : private TapeEvaluator<Math> {
                                 const float* b, std::size_t size) {
         switch (instruction.operation) {
             case Operation::add:
-                return fill([](float x, float y) { return ValueAndPartials{x + y, 1, 1}; }, instruction, out, a, b,
-                            size);
+                return setValuesAndPartials([](float x, float y) { return ValueAndPartials{x + y, 1, 1}; }, instruction,
+                                            out, a, b, size);
             case Operation::subtract:
-                return fill([](float x, float y) { return ValueAndPartials{x - y, 1, -1}; }, instruction, out, a, b,
-                            size);
+                return setValuesAndPartials([](float x, float y) { return ValueAndPartials{x - y, 1, -1}; },
+                                            instruction, out, a, b, size);
             case Operation::multiply:
-                return fill([](float x, float y) { return ValueAndPartials{x * y, y, x}; }, instruction, out, a, b,
-                            size);
+                return setValuesAndPartials([](float x, float y) { return ValueAndPartials{x * y, y, x}; }, instruction,
+                                            out, a, b, size);
             case Operation::divide:
-                return fill([](float x, float y) { return ValueAndPartials{x / y, 1 / y, -(x / y) / y}; }, instruction,
-                            out, a, b, size);
+                return setValuesAndPartials(
+                    [](float x, float y) { return ValueAndPartials{x / y, 1 / y, -(x / y) / y}; }, instruction, out, a,
+                    b, size);
             case Operation::mod:
-                return fill(
+                return setValuesAndPartials(
                     [](float x, float y) {
                         const float whole = __builtin_floorf(x / y);
                         return ValueAndPartials{x - y * whole, 1, -whole};
                     },
                     instruction, out, a, b, size);
             case Operation::min:
-                return fill([](float x, float y) { return chosenOperand(choosesFirst(x < y, x), x, y); }, instruction,
-                            out, a, b, size);
+                return setValuesAndPartials(
+                    [](float x, float y) { return chosenOperand(choosesFirst(x < y, x), x, y); }, instruction, out, a,
+                    b, size);
             case Operation::max:
-                return fill([](float x, float y) { return chosenOperand(choosesFirst(x > y, x), x, y); }, instruction,
-                            out, a, b, size);
+                return setValuesAndPartials(
+                    [](float x, float y) { return chosenOperand(choosesFirst(x > y, x), x, y); }, instruction, out, a,
+                    b, size);
             case Operation::atan2:
                 return arctangent2Partials(instruction, out, a, b, size);
             case Operation::power:
@@ -200,7 +203,7 @@ class TapeDifferentiator : private TapeEvaluator<Math> {
 
     static void arctangent2Partials(const Instruction& instruction, BlockValuesAndPartials& out, const float* a,
                                     const float* b, std::size_t size) {
-        fill(
+        setValuesAndPartials(
             [](float y, float x) {
                 const float squares = x * x + y * y;
                 return ValueAndPartials{0, x / squares, -y / squares};
@@ -213,7 +216,8 @@ class TapeDifferentiator : private TapeEvaluator<Math> {
     static void powerPartials(const Instruction& instruction, BlockValuesAndPartials& out, const float* a,
                               const float* b, std::size_t size) {
         if (instruction.axesOfB != 0) {
-            fill([](float x, float) { return ValueAndPartials{0, 0, x}; }, instruction, out, a, b, size);
+            setValuesAndPartials([](float x, float) { return ValueAndPartials{0, 0, x}; }, instruction, out, a, b,
+                                 size);
             Math::unary(Operation::log, out.byB, out.byB, size);
         }
         powerOrAtan2(instruction, out.value, a, b, size);

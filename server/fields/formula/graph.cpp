@@ -38,7 +38,7 @@ std::optional<double> OperationGraph::constantAt(NodeIndex node) const {
 }
 
 OperationGraph::NodeIndex OperationGraph::unaryNode(Operation operation, NodeIndex a) {
-    if (const auto value = constantAt(a)) return constant(apply(operation, *value, 0));
+    if (const auto value = constantAt(a)) return constant(applyOperation(operation, *value, 0));
     const Operation inner = nodes_[a].operation;
     if (inner == Operation::negate) {
         if (operation == Operation::negate) return nodes_[a].a;
@@ -52,7 +52,7 @@ OperationGraph::NodeIndex OperationGraph::unaryNode(Operation operation, NodeInd
 
 OperationGraph::NodeIndex OperationGraph::binaryNode(Operation operation, NodeIndex a, NodeIndex b) {
     const auto left = constantAt(a), right = constantAt(b);
-    if (left && right) return constant(apply(operation, *left, *right));
+    if (left && right) return constant(applyOperation(operation, *left, *right));
     if (operation == Operation::power && right) return power(a, *right);
     const bool commutes = operation == Operation::add || operation == Operation::multiply ||
                           operation == Operation::min || operation == Operation::max;

@@ -266,7 +266,7 @@ ValueBounds intervalOf(Operation operation, const ValueBounds& a, const ValueBou
         case Operation::step:
         case Operation::sign:
         case Operation::floor:
-            return {apply(operation, a.min, 0), apply(operation, a.max, 0), a.hasValueEverywhere};
+            return {applyOperation(operation, a.min, 0), applyOperation(operation, a.max, 0), a.hasValueEverywhere};
         case Operation::add:
             return add(a, b);
         case Operation::subtract:

@@ -7,12 +7,12 @@ namespace oval4d::fields {
 
 namespace {
 
-struct PortableSourceTag {};
+struct UniqueSourceFileTag {};
 
 }  // namespace
 
 const TapeKernels& portableKernels() {
-    static constexpr TapeKernels kKernels = TapeDifferentiator<PortableMath<PortableSourceTag>>::kernels();
+    static constexpr TapeKernels kKernels = TapeDifferentiator<PortableMath<UniqueSourceFileTag>>::kernels();
     return kKernels;
 }
 

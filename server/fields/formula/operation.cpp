@@ -5,7 +5,7 @@
 
 namespace oval4d::fields {
 
-double apply(Operation operation, double a, double b) {
+double applyOperation(Operation operation, double a, double b) {
     if (std::isnan(a) || (isBinary(operation) && std::isnan(b))) return std::numeric_limits<double>::quiet_NaN();
     switch (operation) {
         case Operation::constant:

@@ -51,6 +51,6 @@ constexpr bool isBinary(Operation operation) { return operation >= Operation::ad
 
 /// Returns the result of an operation in double precision. The operation must be neither `constant` nor `variable`. `b`
 /// is the second operand, or the exponent of integer_power; other operations ignore `b`.
-double apply(Operation operation, double a, double b);
+double applyOperation(Operation operation, double a, double b);
 
 }  // namespace oval4d::fields

@@ -198,7 +198,7 @@ class FormulaParser {
             failAt(start, "no function is called " + text::inQuotes(name) + suggestion(name) +
                               "; known functions are " + functionNames());
         }
-        return isInDefinition_ ? addEarlierNameNode(name, start) : reference(name, start);
+        return isInDefinition_ ? addEarlierNameNode(name, start) : addReferenceNode(name, start);
     }
     Index call(std::size_t function, std::size_t start) {
         const BuiltinFunction& entry = builtinFunctions()[function];
@@ -232,7 +232,7 @@ class FormulaParser {
         std::string_view name;
         std::size_t byte;
     };
-    Index reference(std::string_view name, std::size_t byte) {
+    Index addReferenceNode(std::string_view name, std::size_t byte) {
         const auto found =
             std::find_if(uses_.begin(), uses_.end(), [name](const auto& use) { return use.name == name; });
         const auto index = static_cast<Index>(found - uses_.begin());

@@ -166,7 +166,7 @@ class FormulaWriter {
     std::vector<TextWithPrecedence> written_;
 };
 
-std::string withOuterSpaces(std::string_view text, bool isSpaced) {
+std::string replaceOuterSpaceMarks(std::string_view text, bool isSpaced) {
     std::string spaced;
     int depth = 0;
     for (const char c : text) {
@@ -213,10 +213,10 @@ OperationGraph::NodeIndex buildGraph(const SyntaxTree& tree, std::span<const For
 std::string formulaText(const SyntaxTree& tree, std::span<const FormulaConstant> constants, bool isSpaced) {
     const std::string space(isSpaced ? 1 : 0, ' ');
     FormulaWriter writer(tree, constants);
-    std::string text = withOuterSpaces(writer.sideText(tree.left), isSpaced);
+    std::string text = replaceOuterSpaceMarks(writer.sideText(tree.left), isSpaced);
     if (tree.relation != ComparisonRelation::none) {
         text += space + std::string(symbolOf(tree.relation)) + space;
-        text += withOuterSpaces(writer.sideText(tree.right), isSpaced);
+        text += replaceOuterSpaceMarks(writer.sideText(tree.right), isSpaced);
     }
     std::string_view separator = ";";
     const auto define = [&](const std::string& name, const std::string& value) {
@@ -226,7 +226,7 @@ std::string formulaText(const SyntaxTree& tree, std::span<const FormulaConstant>
     for (const FormulaConstant& constant : constants.subspan(tree.sharedConstants))
         define(constant.name, text::shortestDecimal(constant.value));
     for (std::size_t i = tree.sharedExpressions; i < tree.expressions.size(); ++i)
-        define(tree.expressions[i].name, withOuterSpaces(writer.sideText(tree.expressions[i].root), false));
+        define(tree.expressions[i].name, replaceOuterSpaceMarks(writer.sideText(tree.expressions[i].root), false));
     return text;
 }
 

@@ -114,7 +114,7 @@ class TapeCompiler {
 
 }  // namespace
 
-Tape compile(const OperationGraph& graph, OperationGraph::NodeIndex result) {
+Tape compileTape(const OperationGraph& graph, OperationGraph::NodeIndex result) {
     return TapeCompiler(graph, result).takeTape();
 }
 

@@ -36,6 +36,6 @@ struct Tape {
 };
 
 /// Compiles the function of the node `result`. A register is reused as soon as its value is no longer needed.
-Tape compile(const OperationGraph& graph, OperationGraph::NodeIndex result);
+Tape compileTape(const OperationGraph& graph, OperationGraph::NodeIndex result);
 
 }  // namespace oval4d::fields

@@ -34,7 +34,7 @@ Result<std::vector<std::size_t>> parseAxes(std::string_view axes, std::size_t di
     return found;
 }
 
-std::vector<std::size_t> dimensionsWithAxes(std::span<const std::size_t> sizes) {
+std::vector<std::size_t> squeezedDimensionIndices(std::span<const std::size_t> sizes) {
     std::vector<std::size_t> kept;
     std::size_t surplus = sizes.size() > 4 ? sizes.size() - 4 : 0;
     for (std::size_t i = 0; i < sizes.size(); ++i) {
@@ -109,7 +109,7 @@ std::vector<Slab> AxisMapping::slabs(std::size_t maxCount) const {
 }
 
 Result<SampleStorage> AxisMapping::samples(const FileContents& file, std::span<const std::byte> bytes,
-                                           const NumberFormat& format, const FieldReadOptions& options) const {
+                                           const StoredNumberFormat& format, const FieldReadOptions& options) const {
     const bool native = format.bigEndian == (std::endian::native == std::endian::big);
     // Floats in memory must be aligned, but numbers in a file need not be.
     const bool aligned = reinterpret_cast<std::uintptr_t>(bytes.data()) % alignof(float) == 0;

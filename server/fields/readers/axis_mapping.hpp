@@ -41,7 +41,7 @@ Result<std::vector<std::size_t>> parseAxes(std::string_view axes, std::size_t di
 /// of the dimensions. If there are more than 4 dimensions, leaves out dimensions of size 1, from the first on, until 4
 /// remain: an array often has such a dimension for the only member of an ensemble. More than 4 indices are returned if
 /// too many dimensions are larger; parseAxes() refuses such an array.
-std::vector<std::size_t> dimensionsWithAxes(std::span<const std::size_t> sizes);
+std::vector<std::size_t> squeezedDimensionIndices(std::span<const std::size_t> sizes);
 
 /// A part of an array that is read and converted at once.
 struct Slab {
@@ -79,10 +79,10 @@ class AxisMapping {
 
     /// Returns the samples of the array. `bytes` is the part of `file` that stores the numbers in the format `format`;
     /// it must contain at least count() numbers. Uses the bytes in place, without a copy, if they are aligned, in order
-    /// (see isInMemoryOrder()), and plain 32-bit floats (see NumberFormat::needsNoConversion()) in this processor's
-    /// byte order. Otherwise, converts them. Errors: those of SampleBuffer::allocate().
+    /// (see isInMemoryOrder()), and plain 32-bit floats (see StoredNumberFormat::needsNoConversion()) in this
+    /// processor's byte order. Otherwise, converts them. Errors: those of SampleBuffer::allocate().
     Result<SampleStorage> samples(const FileContents& file, std::span<const std::byte> bytes,
-                                  const NumberFormat& format, const FieldReadOptions& options) const;
+                                  const StoredNumberFormat& format, const FieldReadOptions& options) const;
 
   private:
     Shape shape_{1, 1, 1, 1};

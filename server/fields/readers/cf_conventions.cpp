@@ -95,8 +95,8 @@ std::optional<FirstAndLastCoordinate> endsOfCoordinates(std::span<const double> 
     return FirstAndLastCoordinate{at.front(), at.back()};
 }
 
-void rebaseToLeastIfFar(FirstAndLastCoordinate& ends, std::size_t count, const std::string& name, std::string& unit,
-                        std::vector<std::string>& warnings) {
+void subtractLeastCoordinateIfFar(FirstAndLastCoordinate& ends, std::size_t count, const std::string& name,
+                                  std::string& unit, std::vector<std::string>& warnings) {
     constexpr double kClose = 2e-5;  // makeField() rejects boxes whose size is less than this times their distance from
                                      // 0
     if (count < 2) return;

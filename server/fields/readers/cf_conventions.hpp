@@ -40,7 +40,7 @@ std::optional<FirstAndLastCoordinate> endsOfCoordinates(std::span<const double> 
 /// of coordinates from ends.first to ends.last. They are too close if their mean distance is less than 2·10⁻⁵ times the
 /// greater absolute value of the two ends. In this case, subtracts the least coordinate from both ends, adds a warning
 /// with this coordinate, and removes " since …" from `unit`. `name` is the name of the dimension.
-void rebaseToLeastIfFar(FirstAndLastCoordinate& ends, std::size_t count, const std::string& name, std::string& unit,
-                        std::vector<std::string>& warnings);
+void subtractLeastCoordinateIfFar(FirstAndLastCoordinate& ends, std::size_t count, const std::string& name,
+                                  std::string& unit, std::vector<std::string>& warnings);
 
 }  // namespace oval4d::fields

@@ -21,8 +21,8 @@ constexpr auto kChunkCodecs = std::to_array<std::pair<std::string_view, ChunkCod
 
 const Error kDamaged{ErrorCode::bad_field, "it is damaged, or has another size than the metadata state"};
 
-Result<std::monostate> inflated(GzipReader::StreamFormat format, std::span<const std::byte> chunk,
-                                std::span<std::byte> to) {
+Result<std::monostate> inflateInto(GzipReader::StreamFormat format, std::span<const std::byte> chunk,
+                                   std::span<std::byte> to) {
     GzipReader reader(chunk, format);
     if (!reader.decompressInto(to) || !reader.verifyEnd()) return kDamaged;
     return std::monostate{};
@@ -50,9 +50,9 @@ std::optional<ChunkCodec> chunkCodecNamed(std::string_view name) {
 Result<std::monostate> decompress(ChunkCodec codec, std::span<const std::byte> chunk, std::span<std::byte> to) {
     switch (codec) {
         case ChunkCodec::gzip:
-            return inflated(GzipReader::StreamFormat::gzip, chunk, to);
+            return inflateInto(GzipReader::StreamFormat::gzip, chunk, to);
         case ChunkCodec::zlib:
-            return inflated(GzipReader::StreamFormat::zlib, chunk, to);
+            return inflateInto(GzipReader::StreamFormat::zlib, chunk, to);
         case ChunkCodec::zstd: {
             const std::size_t size = ZSTD_decompress(to.data(), to.size(), chunk.data(), chunk.size());
             if (ZSTD_isError(size) != 0 || size != to.size()) return kDamaged;

@@ -35,7 +35,7 @@ constexpr std::array<FieldFileFormat, 4> kFormats{{{"npy", isNpyStart, readNpy},
                                                    {"nifti", isNiftiOrGzipStart, readNifti}}};
 
 // Removes all digits at the start of `rest`, and returns them without leading zeros.
-std::string_view takeNumber(std::string_view& rest) {
+std::string_view takeDigits(std::string_view& rest) {
     const auto digits =
         static_cast<std::size_t>(std::find_if_not(rest.begin(), rest.end(), text::isDigit) - rest.begin());
     std::string_view number = rest.substr(0, digits);
@@ -48,7 +48,7 @@ bool precedesInNaturalOrder(const std::string& a, const std::string& b) {
     std::string_view restA = a, restB = b;
     while (!restA.empty() && !restB.empty()) {
         if (text::isDigit(restA.front()) && text::isDigit(restB.front())) {
-            const std::string_view numberA = takeNumber(restA), numberB = takeNumber(restB);
+            const std::string_view numberA = takeDigits(restA), numberB = takeDigits(restB);
             if (numberA.size() != numberB.size()) return numberA.size() < numberB.size();
             if (numberA != numberB) return numberA < numberB;
             continue;
@@ -70,7 +70,7 @@ void setSeriesBox(FieldArray& series, std::span<const double> times, const Field
         static_cast<void>(endsOfCoordinates(times, "w", series.warnings));  // adds a warning if they are not evenly
                                                                             // spaced
         ends = {times.front(), times.back()};
-        if (!options.box) rebaseToLeastIfFar(ends, times.size(), "w", series.units[3], series.warnings);
+        if (!options.box) subtractLeastCoordinateIfFar(ends, times.size(), "w", series.units[3], series.warnings);
     }
     // Files that state no times all have the same time, which needs no warning.
     const bool differ = std::adjacent_find(times.begin(), times.end(), std::not_equal_to<>()) != times.end();

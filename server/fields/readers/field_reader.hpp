@@ -44,8 +44,8 @@ Result<FieldArray> readField(const FileContents& file, const FieldReadOptions& o
 /// - defaultBox(), if the files do not state their boxes.
 /// - Otherwise, the box of the files in x, y and z. Let the time of a file be the w at which its box begins. If the
 ///   times increase from file to file, w extends from the first to the last time, as if they were evenly spaced, or
-///   from 0 on if they are far from 0 (see rebaseToLeastIfFar()). If they do not increase, w is the number of the
-///   file, from 0 on; unless all times are equal, there is a warning.
+///   from 0 on if they are far from 0 (see subtractLeastCoordinateIfFar()). If they do not increase, w is the number of
+///   the file, from 0 on; unless all times are equal, there is a warning.
 ///
 /// Errors: those of readField(), with the number of the file; `bad_field` if there are no files, or if their shapes or
 /// boxes do not meet these conditions; `too_large` if there are more than `options.maxSamples` samples in all.

@@ -35,9 +35,9 @@ class FolderFileProvider {
     /// Finds a file by its path relative to the folder. Opens the file, or gets the bytes of `part` if the file cannot
     /// be opened. Returns an empty optional if there is no such file, or if a name in the path is empty, "." or "..".
     /// If the bytes do not arrive by `until`, or if a stop is requested, returns an error.
-    virtual Result<std::optional<FoundFile>> find(const std::string& path, const FilePart& part,
-                                                  std::chrono::steady_clock::time_point until,
-                                                  const std::stop_token& stop) const = 0;
+    virtual Result<std::optional<FoundFile>> findFile(const std::string& path, const FilePart& part,
+                                                      std::chrono::steady_clock::time_point until,
+                                                      const std::stop_token& stop) const = 0;
 
     /// Returns a string that changes when the metadata of the folder's arrays change. Some changes may go unnoticed.
     virtual std::string version() const = 0;

@@ -79,15 +79,15 @@ struct Hdf5DatasetListing {
     bool hasScales = false;  // whether a dataset has dimension scales, as all variables of NetCDF-4 files have
 };
 
-// The HDF5 library calls visitLink() for each link in the file, and visitObject() for each object, until a call returns
-// a number other than 0. The two functions must not throw, because the library is written in C.
-herr_t visitLink(hid_t /*group*/, const char* /*name*/, const H5L_info_t* info, void* to) noexcept {
+// The HDF5 library calls recordIfExternalLink() for each link in the file, and recordIfDataset() for each object, until
+// a call returns a number other than 0. The two functions must not throw, because the library is written in C.
+herr_t recordIfExternalLink(hid_t /*group*/, const char* /*name*/, const H5L_info_t* info, void* to) noexcept {
     auto& contents = *static_cast<Hdf5DatasetListing*>(to);
     contents.refers = contents.refers || info->type > H5L_TYPE_SOFT;
     return contents.refers ? 1 : 0;
 }
 
-herr_t visitObject(hid_t file, const char* name, const H5O_info_t* info, void* to) noexcept {
+herr_t recordIfDataset(hid_t file, const char* name, const H5O_info_t* info, void* to) noexcept {
     auto& contents = *static_cast<Hdf5DatasetListing*>(to);
     if (info->type != H5O_TYPE_DATASET) return 0;
     try {
@@ -126,12 +126,12 @@ bool isHalfPrecision(hid_t type) {
 }
 
 // Returns how a file stores numbers of this HDF5 type. Returns an empty optional if the type is not one of NumberType.
-std::optional<NumberFormat> hdf5NumberFormatOf(hid_t type) {
+std::optional<StoredNumberFormat> hdf5NumberFormatOf(hid_t type) {
     static constexpr std::array kSigned{NumberType::i1, NumberType::i2, NumberType::i4, NumberType::i8};
     static constexpr std::array kUnsigned{NumberType::u1, NumberType::u2, NumberType::u4, NumberType::u8};
     const H5T_class_t kind = H5Tget_class(type);
     const std::size_t size = H5Tget_size(type);
-    NumberFormat format;
+    StoredNumberFormat format;
     format.bigEndian = H5Tget_order(type) == H5T_ORDER_BE;
     if (kind == H5T_FLOAT) {
         const std::array<std::pair<hid_t, NumberType>, 4> floats{{{H5T_IEEE_F32LE, NumberType::f4},
@@ -161,7 +161,8 @@ std::optional<NumberFormat> hdf5NumberFormatOf(hid_t type) {
 
 // Returns the `size` bytes of a dataset in the file. Returns an empty optional unless the dataset is stored in one
 // piece, without filters, in this file.
-std::optional<std::span<const std::byte>> storedBytes(const FileContents& file, hid_t dataset, std::size_t size) {
+std::optional<std::span<const std::byte>> contiguousDatasetBytes(const FileContents& file, hid_t dataset,
+                                                                 std::size_t size) {
     const Hdf5Handle creation(H5Dget_create_plist(dataset), H5Pclose);
     if (!creation || H5Pget_layout(*creation) != H5D_CONTIGUOUS) return {};
     const haddr_t offset = H5Dget_offset(dataset);
@@ -173,10 +174,11 @@ std::optional<std::span<const std::byte>> storedBytes(const FileContents& file, 
 }
 
 // Reads the dataset slab by slab, and converts its numbers to samples. `stored` is the HDF5 type of the numbers. `kept`
-// are the dimensions that `mapping` maps to axes (see dimensionsWithAxes()); all other dimensions have the size 1.
+// are the dimensions that `mapping` maps to axes (see squeezedDimensionIndices()); all other dimensions have the
+// size 1.
 Result<SampleStorage> readSlabs(const FileContents& file, const FieldReadOptions& options, hid_t dataset, hid_t stored,
                                 const std::vector<std::size_t>& kept, const AxisMapping& mapping,
-                                const NumberFormat& format) {
+                                const StoredNumberFormat& format) {
     const Hdf5Handle space(H5Dget_space(dataset), H5Sclose);
     const auto dimensions = static_cast<std::size_t>(H5Sget_simple_extent_ndims(*space));
     std::vector<hsize_t> start(dimensions, 0), size(dimensions, 1);
@@ -206,7 +208,7 @@ Result<SampleStorage> readSlabs(const FileContents& file, const FieldReadOptions
 }
 
 // Chooses a dataset among the candidates, that is, the datasets of numbers with 1 to 4 dimensions (see
-// dimensionsWithAxes()). Returns the path of the candidate with the most dimensions, the first of several such
+// squeezedDimensionIndices()). Returns the path of the candidate with the most dimensions, the first of several such
 // candidates. Returns an empty string if there is no candidate. Adds a warning if there are several candidates.
 std::string defaultDataset(hid_t file, const std::vector<std::string>& datasets, std::vector<std::string>& warnings) {
     std::string chosen;
@@ -217,7 +219,7 @@ std::string defaultDataset(hid_t file, const std::vector<std::string>& datasets,
         const Hdf5Handle type(H5Dget_type(*dataset), H5Tclose);
         const auto size = sizeOfDataset(*dataset);
         if (!type || !size || !hdf5NumberFormatOf(*type)) continue;
-        const std::size_t kept = dimensionsWithAxes(*size).size();
+        const std::size_t kept = squeezedDimensionIndices(*size).size();
         if (kept > 4) continue;
         ++candidates;
         if (kept <= dimensions) continue;
@@ -275,7 +277,7 @@ Result<FieldArray> readDataset(const FileContents& file, hid_t id, const std::ve
     const auto size = sizeOfDataset(*dataset);
     if (!format || !size)
         return badFieldError("the dataset " + text::inQuotes(name) + " is not an array of real numbers");
-    const std::vector<std::size_t> kept = dimensionsWithAxes(*size);
+    const std::vector<std::size_t> kept = squeezedDimensionIndices(*size);
     const auto axes = parseAxes(options.axes, kept.size());
     if (!axes) return axes.error();
     std::vector<ArrayDimension> dimensions;
@@ -288,7 +290,7 @@ Result<FieldArray> readDataset(const FileContents& file, hid_t id, const std::ve
     field.box = options.box.value_or(defaultBox(field.shape, time));
     field.quantity = {textOfAttribute(*dataset, "long_name"), textOfAttribute(*dataset, "units")};
     if (field.quantity.name.empty()) field.quantity.name = sanitizeQuantityText(name.substr(name.rfind('/') + 1));
-    if (const auto bytes = storedBytes(file, *dataset, mapping->count() * sizeOf(format->type))) {
+    if (const auto bytes = contiguousDatasetBytes(file, *dataset, mapping->count() * sizeOf(format->type))) {
         auto inPlace = mapping->samples(file, *bytes, *format, options);
         if (!inPlace) return inPlace.error();
         field.samples = std::move(*inPlace);
@@ -312,8 +314,9 @@ Result<FieldArray> readHdf5(const FileContents& file, const FieldReadOptions& op
     const Hdf5Handle id(openFileInMemory(file.bytes), H5Fclose);
     if (!id) return badFieldError("the file is not a valid HDF5 file");
     Hdf5DatasetListing contents;
-    const bool visited = H5Lvisit(*id, H5_INDEX_NAME, H5_ITER_INC, visitLink, &contents) >= 0 &&
-                         (contents.refers || H5Ovisit(*id, H5_INDEX_NAME, H5_ITER_INC, visitObject, &contents) >= 0);
+    const bool visited =
+        H5Lvisit(*id, H5_INDEX_NAME, H5_ITER_INC, recordIfExternalLink, &contents) >= 0 &&
+        (contents.refers || H5Ovisit(*id, H5_INDEX_NAME, H5_ITER_INC, recordIfDataset, &contents) >= 0);
     if (!visited) return badFieldError("the file is not a valid HDF5 file: its groups cannot be read");
     if (contents.refers) {
         return badFieldError(

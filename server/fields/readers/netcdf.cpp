@@ -143,8 +143,8 @@ const NetcdfTypeRow* typeRowOf(nc_type type) {
     return row == kNetcdfTypes.end() ? nullptr : row;
 }
 
-NumberFormat netcdfNumberFormatOf(const NetcdfVariable& variable, const NetcdfTypeRow& row) {
-    NumberFormat format;
+StoredNumberFormat netcdfNumberFormatOf(const NetcdfVariable& variable, const NetcdfTypeRow& row) {
+    StoredNumberFormat format;
     format.type = row.number;
     format.bigEndian = std::endian::native == std::endian::big;  // the library converts numbers to this processor's
                                                                  // byte order
@@ -217,7 +217,7 @@ std::vector<std::size_t> dimensionsAfterSqueeze(const NetcdfVariable& variable) 
 
 // Returns whether a variable is read only if the options name it: a variable without dimensions, a coordinate variable
 // (named like its only dimension), or the bounds of a coordinate variable.
-bool isAuxiliary(const NetcdfVariable& variable) {
+bool isCoordinateBoundsOrScalar(const NetcdfVariable& variable) {
     if (variable.dimensions.empty()) return true;
     const int dimension = variable.dimensions.front();
     if (variable.dimensions.size() == 1) return variable.name == dimensionName(variable.group, dimension);
@@ -259,7 +259,7 @@ Result<NetcdfVariable> defaultVariable(int file, FieldArray& field) {
         if (nc_inq_nvars(group, &count) != NC_NOERR) return badFieldError("the file's variables cannot be read");
         for (int id = 0; id < count; ++id) {
             const auto variable = variableAt(group, id);
-            if (!variable || typeRowOf(variable->type) == nullptr || isAuxiliary(*variable)) continue;
+            if (!variable || typeRowOf(variable->type) == nullptr || isCoordinateBoundsOrScalar(*variable)) continue;
             const std::size_t dimensions = dimensionsAfterSqueeze(*variable).size();
             if (dimensions > 4) continue;
             ++candidates;
@@ -298,7 +298,7 @@ std::optional<FirstAndLastCoordinate> coordinateEndsOf(const NetcdfVariable& coo
     const std::size_t start = 0;
     std::vector<double> at(size);
     if (nc_get_vara_double(coordinate.group, coordinate.id, &start, &size, at.data()) != NC_NOERR) return {};
-    const NumberFormat format = netcdfNumberFormatOf(coordinate, *row);
+    const StoredNumberFormat format = netcdfNumberFormatOf(coordinate, *row);
     for (double& each : at) each = each * format.scale + format.offset;  // unpacks: CF conventions, section 8.1
     return endsOfCoordinates(at, name, field.warnings);
 }
@@ -328,7 +328,8 @@ Result<std::vector<ArrayDimension>> mapDimensions(const NetcdfVariable& variable
         each.axis = (*axes)[i];
         if (each.size == 0) return badFieldError("the array is empty");
         auto ends = coordinates[i] ? coordinateEndsOf(*coordinates[i], each.size, stated[i].name, field) : std::nullopt;
-        if (ends && !options.box) rebaseToLeastIfFar(*ends, each.size, stated[i].name, stated[i].units, field.warnings);
+        if (ends && !options.box)
+            subtractLeastCoordinateIfFar(*ends, each.size, stated[i].name, stated[i].units, field.warnings);
         field.boxIsKnown = field.boxIsKnown || ends;
         if (ends) field.units.at(each.axis) = stated[i].units;
         const FirstAndLastCoordinate found =
@@ -344,7 +345,7 @@ Result<std::vector<ArrayDimension>> mapDimensions(const NetcdfVariable& variable
 Result<SampleStorage> readSlabs(const FileContents& file, const FieldReadOptions& options,
                                 const NetcdfVariable& variable, const std::vector<std::size_t>& kept,
                                 const AxisMapping& mapping) {
-    const NumberFormat format = netcdfNumberFormatOf(variable, *typeRowOf(variable.type));
+    const StoredNumberFormat format = netcdfNumberFormatOf(variable, *typeRowOf(variable.type));
     const std::size_t skipped = 4 - kept.size();
     std::vector<std::size_t> start(variable.dimensions.size(), 0), count(variable.dimensions.size(), 1);
     auto buffer = SampleBuffer::allocate(mapping.count(), options);

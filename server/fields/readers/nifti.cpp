@@ -140,7 +140,7 @@ Result<NiftiHeader> parseHeader(std::span<const std::byte> start) {
     return header;
 }
 
-std::optional<NumberFormat> niftiNumberFormatOf(const NiftiHeader& header) {
+std::optional<StoredNumberFormat> niftiNumberFormatOf(const NiftiHeader& header) {
     static constexpr std::array<std::pair<int, NumberType>, 10> kNiftiTypes{{{2, NumberType::u1},
                                                                              {4, NumberType::i2},
                                                                              {8, NumberType::i4},
@@ -154,7 +154,7 @@ std::optional<NumberFormat> niftiNumberFormatOf(const NiftiHeader& header) {
     const auto* const type = std::find_if(kNiftiTypes.begin(), kNiftiTypes.end(),
                                           [&](const auto& each) { return each.first == header.type; });
     if (type == kNiftiTypes.end()) return {};
-    NumberFormat format;
+    StoredNumberFormat format;
     format.type = type->second;
     format.bigEndian = header.bigEndian;
     if (header.slope != 0 && std::isfinite(header.slope) && std::isfinite(header.intercept)) {

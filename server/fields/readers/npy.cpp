@@ -143,7 +143,7 @@ Result<FieldArray> readNpy(const FileContents& file, const FieldReadOptions& opt
     }
     auto shape = header->shape;
     if (header->fortranOrder) std::reverse(shape.begin(), shape.end());  // from the slowest dimension to the fastest
-    const std::vector<std::size_t> kept = dimensionsWithAxes(shape);
+    const std::vector<std::size_t> kept = squeezedDimensionIndices(shape);
     auto axes = parseAxes(options.axes, kept.size());
     if (!axes) return axes.error();
     // `options.axes` has the order of the shape in the header, so its axes are reversed like the shape.

@@ -54,7 +54,7 @@ float roundedToFloat(Value value) {
     return static_cast<float>(value);
 }
 
-float rescaledSample(const NumberFormat& format, double stored) {
+float rescaledSample(const StoredNumberFormat& format, double stored) {
     const bool missing = !(format.min <= stored && stored <= format.max) ||
                          std::find(format.missing.begin(), format.missing.end(), stored) != format.missing.end();
     return missing ? std::numeric_limits<float>::quiet_NaN() : roundedToFloat(stored * format.scale + format.offset);
@@ -75,7 +75,7 @@ void visitRows(const StridedLayout& layout, float* to, const Visit& visit) {
 }
 
 template <typename Number, bool kSwap>
-void convertNumbers(const NumberFormat& format, const std::byte* from, const StridedLayout& layout, float* to) {
+void convertNumbers(const StoredNumberFormat& format, const std::byte* from, const StridedLayout& layout, float* to) {
     const bool plain = format.needsNoConversion();
     visitRows(layout, to, [&](float* row) {
         const std::ptrdiff_t stride = layout.stride[3];
@@ -91,7 +91,8 @@ void convertNumbers(const NumberFormat& format, const std::byte* from, const Str
 }
 
 template <typename Number>
-void convertInFileByteOrder(const NumberFormat& format, const std::byte* from, const StridedLayout& layout, float* to) {
+void convertInFileByteOrder(const StoredNumberFormat& format, const std::byte* from, const StridedLayout& layout,
+                            float* to) {
     if (format.bigEndian == (std::endian::native == std::endian::big) || sizeof(Number) == 1)
         convertNumbers<Number, false>(format, from, layout, to);
     else
@@ -105,7 +106,7 @@ std::size_t sizeOf(NumberType type) {
     return kSizes.at(static_cast<std::size_t>(type));
 }
 
-std::optional<NumberFormat> numberFormatOf(std::string_view descr) {
+std::optional<StoredNumberFormat> numberFormatOf(std::string_view descr) {
     static constexpr std::array<std::pair<std::string_view, NumberType>, 12> kNumpyTypes{{
         {"b1", NumberType::boolean},
         {"i1", NumberType::i1},
@@ -124,18 +125,18 @@ std::optional<NumberFormat> numberFormatOf(std::string_view descr) {
     const auto* const type = std::find_if(kNumpyTypes.begin(), kNumpyTypes.end(),
                                           [&](const auto& each) { return each.first == descr.substr(1); });
     if (type == kNumpyTypes.end()) return {};
-    NumberFormat format;
+    StoredNumberFormat format;
     format.type = type->second;
     format.bigEndian = descr[0] == '>' || (descr[0] != '<' && std::endian::native == std::endian::big);
     return format;
 }
 
-bool NumberFormat::needsNoConversion() const {
+bool StoredNumberFormat::needsNoConversion() const {
     constexpr double kInfinity = std::numeric_limits<double>::infinity();
     return scale == 1 && offset == 0 && missing.empty() && min == -kInfinity && max == kInfinity;
 }
 
-double NumberFormat::roundedToType(double number) const {
+double StoredNumberFormat::roundedToType(double number) const {
     // A file may state the greatest 32-bit float as 3.4028235e38, a decimal number that is slightly greater than this
     // float.
     constexpr double kMost{std::numeric_limits<float>::max()}, kRoundedToMost = kMost * (1 + 0x1p-25);
@@ -143,13 +144,13 @@ double NumberFormat::roundedToType(double number) const {
     return double{static_cast<float>(std::clamp(number, -kMost, kMost))};
 }
 
-void NumberFormat::roundLimitsToType() {
+void StoredNumberFormat::roundLimitsToType() {
     for (double& number : missing) number = roundedToType(number);
     min = roundedToType(min);
     max = roundedToType(max);
 }
 
-void convertToFloats(const NumberFormat& format, const std::byte* from, const StridedLayout& layout, float* to) {
+void convertToFloats(const StoredNumberFormat& format, const std::byte* from, const StridedLayout& layout, float* to) {
     switch (format.type) {
         case NumberType::boolean:
             return convertInFileByteOrder<BooleanByte>(format, from, layout, to);

@@ -19,7 +19,7 @@ enum class NumberType : std::uint8_t { boolean, i1, u1, i2, u2, i4, u4, i8, u8, 
 std::size_t sizeOf(NumberType type);
 
 /// The format of stored numbers: how they are stored, and which values they stand for.
-struct NumberFormat {
+struct StoredNumberFormat {
     NumberType type = NumberType::f4;
     bool bigEndian = false;
     double scale = 1, offset = 0;                           ///< a stored number n stands for n · scale + offset
@@ -40,7 +40,7 @@ struct NumberFormat {
 
 /// Returns the format for a NumPy type string such as "<f4": a byte order (< little, > big, = or | this processor's), a
 /// kind and a size in bytes. Returns an empty optional if the type is not one of NumberType.
-std::optional<NumberFormat> numberFormatOf(std::string_view descr);
+std::optional<StoredNumberFormat> numberFormatOf(std::string_view descr);
 
 /// The sizes of a block of stored numbers, and the places to which the numbers go. The number with the indices i[0] …
 /// i[3] goes to i[0] · stride[0] + … + i[3] · stride[3], relative to the place of the first number. The dimensions are
@@ -54,6 +54,6 @@ struct StridedLayout {
 /// aligned; `to` is the place of the first number. Numbers that stand for no value, and finite numbers beyond the
 /// largest float, become NaN. Infinite numbers become NaN or stay infinite, both of which ArrayFunction treats as
 /// missing samples.
-void convertToFloats(const NumberFormat& format, const std::byte* from, const StridedLayout& layout, float* to);
+void convertToFloats(const StoredNumberFormat& format, const std::byte* from, const StridedLayout& layout, float* to);
 
 }  // namespace oval4d::fields

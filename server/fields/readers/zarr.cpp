@@ -111,7 +111,7 @@ Result<std::vector<ArrayDimension>> mapDimensions(const FolderFileReader& folder
         if (!imageStatesCoordinates && !each.name.empty() && !array.path.empty()) {
             if (const auto at = readCoordinates(folder, zarr, group + each.name, size, unit, each)) {
                 auto ends = endsOfCoordinates(*at, each.name, field.warnings);
-                if (ends && !options.box) rebaseToLeastIfFar(*ends, size, each.name, unit, field.warnings);
+                if (ends && !options.box) subtractLeastCoordinateIfFar(*ends, size, each.name, unit, field.warnings);
                 if (ends) range = {ends->first, ends->last, true};
             }
         }
@@ -166,7 +166,7 @@ AxisSampleRange samplesCovering(double from, double to, double min, double max, 
 struct ZarrArrayPart {
     ZarrArrayMetadata array;
     IndexBox indices;
-    std::vector<std::size_t> kept;           // the dimensions that become axes (see dimensionsWithAxes())
+    std::vector<std::size_t> kept;           // the dimensions that become axes (see squeezedDimensionIndices())
     std::vector<ArrayDimension> dimensions;  // the dimensions in `kept`, with the sizes of the part
     FieldArray field;                        // the array, without its shape and its samples
     std::uint32_t finer = 0;                 // see MultiscaleImageLevel::finer
@@ -205,7 +205,7 @@ std::optional<Error> restrictPartToRegion(const Box& region, bool mayLieBeyond, 
 Result<ZarrArrayPart> selectedPart(const FolderFileReader& folder, const ZarrFolder& zarr, ZarrArrayMetadata array,
                                    const FieldReadOptions& options, bool isCoarser = false) {
     ZarrArrayPart part{std::move(array), {}, {}, {}, {}};
-    part.kept = dimensionsWithAxes(part.array.shape);
+    part.kept = squeezedDimensionIndices(part.array.shape);
     part.indices = {std::vector<std::size_t>(part.array.shape.size(), 0), part.array.shape};
     auto dimensions = mapDimensions(folder, zarr, part.array, part.kept, options, part.field);
     if (!dimensions) return dimensions.error();

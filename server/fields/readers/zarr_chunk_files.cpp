@@ -14,7 +14,7 @@ Error damagedShardError(const std::string& path, const Error& error) {
 
 }  // namespace
 
-ZarrChunkFiles::ChunkLocation ZarrChunkFiles::chunkPlaceOf(std::vector<std::size_t> index) const {
+ZarrChunkFiles::ChunkLocation ZarrChunkFiles::chunkLocationOf(std::vector<std::size_t> index) const {
     std::size_t number = 0;
     if (array_.shards) {
         for (std::size_t i = 0; i < index.size(); ++i) {
@@ -27,13 +27,13 @@ ZarrChunkFiles::ChunkLocation ZarrChunkFiles::chunkPlaceOf(std::vector<std::size
 }
 
 std::string ZarrChunkFiles::chunkNameForErrors(const std::vector<std::size_t>& index) const {
-    const ChunkLocation place = chunkPlaceOf(index);
+    const ChunkLocation place = chunkLocationOf(index);
     const std::string file = text::inQuotes(place.path);
     return array_.shards ? "the chunk " + std::to_string(place.number) + " in the shard " + file : "the chunk " + file;
 }
 
-Result<std::optional<FileContents>> ZarrChunkFiles::contentsOf(const std::vector<std::size_t>& index) {
-    ChunkLocation place = chunkPlaceOf(index);
+Result<std::optional<FileContents>> ZarrChunkFiles::chunkContentsOf(const std::vector<std::size_t>& index) {
+    ChunkLocation place = chunkLocationOf(index);
     if (!array_.shards) return folder_(place.path, {});
     if (place.path != shardPath_) {
         if (auto error = readShardIndex(std::move(place.path))) return std::move(*error);

@@ -23,7 +23,7 @@ class ZarrChunkFiles {
 
     /// Returns the stored bytes of the chunk with these indices. Returns an empty optional if the chunk is missing.
     /// Errors: `bad_field` if the shard of the chunk is damaged; those of the folder.
-    Result<std::optional<FileContents>> contentsOf(const std::vector<std::size_t>& index);
+    Result<std::optional<FileContents>> chunkContentsOf(const std::vector<std::size_t>& index);
 
     /// Returns the name of the chunk in error messages, such as "the chunk 'c/0/0'".
     std::string chunkNameForErrors(const std::vector<std::size_t>& index) const;
@@ -33,7 +33,7 @@ class ZarrChunkFiles {
         std::string path;    // the path of the chunk's file or shard
         std::size_t number;  // the number of the chunk among the chunks of its shard
     };
-    ChunkLocation chunkPlaceOf(std::vector<std::size_t> index) const;
+    ChunkLocation chunkLocationOf(std::vector<std::size_t> index) const;
     std::optional<Error> readShardIndex(std::string shard);
 
     const FolderFileReader& folder_;

@@ -86,7 +86,7 @@ class ZarrChunkReader {
 
     Result<std::monostate> readChunk(const std::vector<std::size_t>& index, const std::vector<std::ptrdiff_t>& stride,
                                      float* to) {
-        auto file = chunks_.contentsOf(index);
+        auto file = chunks_.chunkContentsOf(index);
         if (!file) return file.error();
         if (!*file) {
             fillMissingChunk(index, stride, to);
@@ -114,7 +114,7 @@ class ZarrChunkReader {
     };
 
     // Returns the range of indices, along a dimension of the chunk `index`, that are in the part.
-    IndexRange rangeWithin(const std::vector<std::size_t>& index, std::size_t dimension) const {
+    IndexRange partRangeWithinChunk(const std::vector<std::size_t>& index, std::size_t dimension) const {
         const std::size_t chunk = index[dimension] * array_.chunk[dimension], first = part_.first[dimension];
         return {std::max(first, chunk) - chunk,
                 std::min(array_.chunk[dimension], first + part_.size[dimension] - chunk)};
@@ -132,7 +132,7 @@ class ZarrChunkReader {
     void fillMissingChunk(const std::vector<std::size_t>& index, const std::vector<std::ptrdiff_t>& stride,
                           float* to) const {
         // The fill value is a stored number, so it is converted like all others.
-        NumberFormat format = array_.format;
+        StoredNumberFormat format = array_.format;
         format.type = NumberType::f8;
         format.bigEndian = std::endian::native == std::endian::big;
         float value = 0;
@@ -156,7 +156,7 @@ class ZarrChunkReader {
         std::vector<IndexRange> range(rank);
         std::vector<std::size_t> i(rank);  // the indices of a row in the chunk, in the order of storage
         for (std::size_t d = 0; d < rank; ++d) {
-            range[d] = rangeWithin(index, order[d]);
+            range[d] = partRangeWithinChunk(index, order[d]);
             i[d] = range[d].begin;
         }
         for (;;) {

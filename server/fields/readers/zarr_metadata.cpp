@@ -50,7 +50,7 @@ Result<std::vector<std::size_t>> sizesIn(const json& object, std::string_view na
 
 // Returns the fill value, which is the value of all numbers of a missing chunk. Returns NaN if the metadata state none.
 // In version 3, a hexadecimal number may state the bits of a float.
-Result<double> fillValueIn(const json& metadata, const NumberFormat& format) {
+Result<double> fillValueIn(const json& metadata, const StoredNumberFormat& format) {
     const json* const value = findMember(metadata, "fill_value");
     if (value == nullptr) return kNone;
     if (const auto number = numberIn(*value)) return *number;
@@ -205,7 +205,7 @@ Result<ZarrArrayMetadata> parseVersion3(const json& metadata) {
 }
 
 // Applies the attributes of the CF conventions, version 1.10, sections 2.5 and 8.1.
-void applyAttributes(ZarrArrayMetadata& array) {
+void applyCfAttributes(ZarrArrayMetadata& array) {
     const auto numbers = [&](std::string_view attribute) {
         std::vector<double> found;
         const json* const value = findMember(array.attributes, attribute);
@@ -236,7 +236,7 @@ void applyAttributes(ZarrArrayMetadata& array) {
     array.format.offset = first("add_offset", 0);
 }
 
-Result<ZarrArrayMetadata> checked(ZarrArrayMetadata array) {
+Result<ZarrArrayMetadata> checkedMetadata(ZarrArrayMetadata array) {
     if (array.chunk.size() != array.shape.size())
         return badMetadataError("the shapes of the array and of its chunks differ in length");
     if (array.separator != "." && array.separator != "/") return badMetadataError("the separator must be . or /");
@@ -340,12 +340,12 @@ Result<std::optional<ZarrArrayMetadata>> ZarrFolder::array(const std::string& pa
     auto fill = fillValueIn(**metadata, array->format);
     if (!fill) return fill.error();
     array->fill = array->format.roundedToType(*fill);
-    applyAttributes(*array);
+    applyCfAttributes(*array);
     // An array with _ARRAY_DIMENSIONS was written by xarray. In version 2, xarray stores the attribute _FillValue as
     // fill_value, so samples with this value are missing.
     if (!isVersion3 && !array->dimensionNames.empty() && !std::isnan(*fill))
         array->format.missing.push_back(array->fill);
-    auto valid = checked(std::move(*array));
+    auto valid = checkedMetadata(std::move(*array));
     if (!valid) return valid.error();
     return std::optional(std::move(*valid));
 }
@@ -384,9 +384,9 @@ std::optional<ZarrCoordinates> ZarrFolder::coordinatesOf(const std::string& path
     return coordinates;
 }
 
-Result<ZarrFolder::ChosenArray> ZarrFolder::chooseArray() const {
+Result<ZarrFolder::DefaultArrayChoice> ZarrFolder::chooseArray() const {
     const nlohmann::json attributes = groupAttributes();
-    ChosenArray chosen;
+    DefaultArrayChoice chosen;
     if (const nlohmann::json* const images = findMember(attributes, "multiscales");
         images != nullptr && images->is_array() && !images->empty()) {
         const nlohmann::json* const levels = findMember(images->front(), "datasets");

@@ -28,7 +28,7 @@ struct ZarrArrayMetadata {
     std::vector<std::size_t> shape, chunk;    ///< the sizes of the array and of its chunks, in the order of its indices
     std::vector<std::size_t> order;           ///< the indices of the dimensions in the order of storage, from the
                                               ///< slowest to the fastest
-    NumberFormat format;                      ///< the type, and the scale, offset and missing values of the CF
+    StoredNumberFormat format;                ///< the type, and the scale, offset and missing values of the CF
                                               ///< attributes
     std::optional<ChunkCodec> codec;          ///< the compression of chunks; empty if there is none
     std::optional<ShardLayout> shards;        ///< how chunks lie in shards; empty if each chunk is a file
@@ -68,14 +68,14 @@ class ZarrFolder {
     Result<std::optional<ZarrArrayMetadata>> array(const std::string& path) const;
 
     /// The array that is read from a group if the user names no array.
-    struct ChosenArray {
+    struct DefaultArrayChoice {
         std::string path;
         std::vector<std::string> all;  ///< the paths of all arrays among which `path` was chosen
         bool areLevels = false;        ///< whether `all` are the levels of a multiscale image, with the finest first
     };
     /// Chooses an array of a group (see readZarr()). Errors: `unsupported_format` if the folder is neither an array nor
     /// a group; `out_of_range` if the group does not list its arrays; `bad_field` if none of the arrays can be read.
-    Result<ChosenArray> chooseArray() const;
+    Result<DefaultArrayChoice> chooseArray() const;
 
     /// Returns the coordinates of an array that is a level of a multiscale image. Returns an empty optional if the
     /// folder is not a multiscale image, or the array not one of its levels.

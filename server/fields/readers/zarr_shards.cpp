@@ -21,7 +21,7 @@ constexpr std::size_t kEntryBytes = 2 * sizeof(std::uint64_t);  // the size of a
                                                                 // size of a chunk
 constexpr std::size_t kChecksumBytes = sizeof(std::uint32_t);
 
-Error damagedShard(const std::string& why) { return {ErrorCode::bad_field, why}; }
+Error shardDamageError(const std::string& why) { return {ErrorCode::bad_field, why}; }
 
 template <typename Number>
 Number loadInteger(const std::byte* from, bool bigEndian) {
@@ -33,7 +33,7 @@ Number loadInteger(const std::byte* from, bool bigEndian) {
     return number;
 }
 
-std::uint32_t checksumOf(std::span<const std::byte> bytes) {
+std::uint32_t crc32cOf(std::span<const std::byte> bytes) {
     constexpr std::uint32_t kAllBits = std::numeric_limits<std::uint32_t>::max();
     auto* const from = const_cast<std::uint8_t*>(reinterpret_cast<const std::uint8_t*>(bytes.data()));
     return crc32_iscsi(from, static_cast<int>(bytes.size()), kAllBits) ^ kAllBits;
@@ -88,11 +88,11 @@ FilePart filePartOfShardIndex(const ShardLayout& layout) {
 }
 
 Result<std::span<const std::byte>> checkedShardIndex(std::span<const std::byte> stored, const ShardLayout& layout) {
-    if (stored.size() < filePartOfShardIndex(layout).size) return damagedShard("it is shorter than its index");
+    if (stored.size() < filePartOfShardIndex(layout).size) return shardDamageError("it is shorter than its index");
     const std::size_t size = layout.chunkCount() * kEntryBytes;
     const std::span<const std::byte> index = stored.first(size);
-    if (layout.hasChecksum && loadInteger<std::uint32_t>(stored.data() + size, false) != checksumOf(index))
-        return damagedShard("the checksum of its index is wrong");
+    if (layout.hasChecksum && loadInteger<std::uint32_t>(stored.data() + size, false) != crc32cOf(index))
+        return shardDamageError("the checksum of its index is wrong");
     return index;
 }
 

@@ -64,7 +64,7 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
     asio::awaitable<std::optional<HttpRequest>> readRequest();
     asio::awaitable<bool> serveRequest(HttpRequest request);
     asio::awaitable<HttpReply> answer(const HttpRequest& request);
-    std::optional<HttpReply> refuseConnection() const;
+    std::optional<HttpReply> connectionRefusalReply() const;
     asio::awaitable<bool> serveUpload(HttpRequest request);
     asio::awaitable<std::optional<Result<LiveSession::CommandResult>>> restoreState(
         std::shared_ptr<LiveSession> session, std::shared_ptr<const fields::FileHandle> file);
@@ -77,8 +77,8 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
     asio::awaitable<void> refuse(const HttpRequest& request, HttpReply reply);
     asio::awaitable<void> linger();
     void identifyClient(const HttpRequest& request);
-    std::string resourcePolicy(const RequestTarget& target) const;
-    asio::awaitable<void> upgrade(HttpRequest request, std::string session);
+    std::string crossOriginResourcePolicy(const RequestTarget& target) const;
+    asio::awaitable<void> upgradeToWebSocket(HttpRequest request, std::string session);
     void end(ConnectionRegistry::EndReason reason);
 
     void startDeadline(TimerClock::Clock::duration timeout);
@@ -124,7 +124,8 @@ asio::awaitable<void> HttpConnection::run() {
         registration_.setInUse(false);
         first_ = false;
     }
-    if (!stream_.socket().is_open()) co_return;  // the socket was closed, or upgrade() has moved it to a WebSocket
+    if (!stream_.socket().is_open())
+        co_return;  // the socket was closed, or upgradeToWebSocket() has moved it to a WebSocket
     boost::system::error_code ignored;
     (void)stream_.socket().shutdown(asio::ip::tcp::socket::shutdown_send, ignored);
 }
@@ -149,7 +150,7 @@ asio::awaitable<bool> HttpConnection::serveRequest(HttpRequest request) {
     if (auto refusal = checkHandshake(request, context_.access, *client_, clock().now(), buffer_.size() > 0, session)) {
         co_await refuse(request, std::move(*refusal));
     } else {
-        co_await upgrade(std::move(request), std::move(session));
+        co_await upgradeToWebSocket(std::move(request), std::move(session));
     }
     co_return false;
 }
@@ -186,7 +187,7 @@ void HttpConnection::identifyClient(const HttpRequest& request) {
 
 /// If this connection exceeds a limit on connections, returns the refusal with which each of its requests is answered;
 /// otherwise an empty optional.
-std::optional<HttpReply> HttpConnection::refuseConnection() const {
+std::optional<HttpReply> HttpConnection::connectionRefusalReply() const {
     if (admission_ == ConnectionRegistry::AdmissionDecision::server_full)
         return refusalReply(503, "the server has too many connections; try again later\n");
     if (admission_ == ConnectionRegistry::AdmissionDecision::client_full)
@@ -195,7 +196,7 @@ std::optional<HttpReply> HttpConnection::refuseConnection() const {
 }
 
 asio::awaitable<HttpReply> HttpConnection::answer(const HttpRequest& request) {
-    if (auto refusal = refuseConnection()) co_return std::move(*refusal);
+    if (auto refusal = connectionRefusalReply()) co_return std::move(*refusal);
     auto target = targetOf(request);
     if (!target) {
         co_return errorReply(
@@ -211,7 +212,7 @@ asio::awaitable<HttpReply> HttpConnection::answer(const HttpRequest& request) {
         if (auto refusal = checkAccess(request, *target, context_.access, *client_, clock().now(), cookie))
             co_return std::move(*refusal);
     }
-    resourcePolicy_ = resourcePolicy(*target);
+    resourcePolicy_ = crossOriginResourcePolicy(*target);
     const bool reads = request.method() == http::verb::get || request.method() == http::verb::head;
     if (reads && sessionIdInPath(target->path))
         co_return refusalReply(HttpError{kUpgradeRequired, "this path serves WebSockets: request an upgrade"});
@@ -292,7 +293,7 @@ HttpReply HttpConnection::replyTo(const Result<LiveSession::CommandResult>& appl
 /// and sets `upload` and `token`. `token` is the session token in the request, which may be wrong.
 std::optional<HttpReply> HttpConnection::checkUpload(const HttpRequest& request, UploadRequest& upload,
                                                      std::string& token) const {
-    if (auto refusal = refuseConnection()) return refusal;
+    if (auto refusal = connectionRefusalReply()) return refusal;
     const auto target = targetOf(request);
     std::string cookie;
     if (auto refusal = checkAccess(request, *target, context_.access, *client_, clock().now(), cookie)) return refusal;
@@ -369,7 +370,7 @@ asio::awaitable<std::optional<HttpReply>> HttpConnection::receiveBody(const Http
 
 /// Returns the Cross-Origin-Resource-Policy of a reply. If any foreign origin is allowed, pages of all origins may
 /// embed replies of the API, because browsers do not tell which page embeds a picture.
-std::string HttpConnection::resourcePolicy(const RequestTarget& target) const {
+std::string HttpConnection::crossOriginResourcePolicy(const RequestTarget& target) const {
     return isCrossSiteRestricted(target) && context_.access.allowsForeignOrigins() ? "cross-origin" : "same-origin";
 }
 
@@ -437,7 +438,7 @@ asio::awaitable<bool> HttpConnection::write(const HttpRequest& request, HttpRepl
     co_return response.keep_alive();
 }
 
-asio::awaitable<void> HttpConnection::upgrade(HttpRequest request, std::string session) {
+asio::awaitable<void> HttpConnection::upgradeToWebSocket(HttpRequest request, std::string session) {
     auto connection =
         std::make_shared<WebSocketConnection>(std::move(stream_), context_.services, context_.sessions, client_,
                                               std::move(session), [this] { registration_.setInUse(true); });

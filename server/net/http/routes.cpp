@@ -56,7 +56,7 @@ double residentBytes() {
 
 /// Removes `width` and `height` from a query, and returns the picture size that they describe. A missing one has its
 /// default value. Errors: `out_of_range` if a value is not a number, or the size is not within `limits`.
-Result<scene::Viewport> takeViewport(session::QueryParameters& query, const pipeline::FrameLimits& limits) {
+Result<scene::Viewport> takeViewport(session::QueryParameters& query, const pipeline::PictureSizeLimits& limits) {
     scene::Viewport viewport = pipeline::defaultViewport(limits);
     session::QueryParameters rest;
     for (auto& [name, value] : query) {
@@ -117,7 +117,7 @@ constexpr const char* kContentSecurityPolicy =
 
 /// Returns the reply to a request for a file of the web client. Supports compressed representations (Accept-Encoding),
 /// If-None-Match and byte ranges.
-HttpReply fileReply(const WebFile& file, const Routes::ParsedRequest& request) {
+HttpReply webFileReply(const WebFile& file, const Routes::ParsedRequest& request) {
     const HttpRepresentation& representation = file.negotiate(request.acceptEncoding);
     HttpReply reply{200,
                     file.type,
@@ -163,16 +163,16 @@ asio::awaitable<HttpReply> Routes::answer(ParsedRequest request) {
     if (path == "/api/v1/frame.png") co_return co_await frame(std::move(request.target.query), request.client);
     if (const auto format = formatInPath(path))
         co_return co_await file(std::move(request.target.query), *format, request.client);
-    if (const WebFile* file = files_.find(path)) co_return fileReply(*file, request);
+    if (const WebFile* file = files_.find(path)) co_return webFileReply(*file, request);
     co_return errorReply(pathNotFoundError(path));
 }
 
 /// Returns the state that a query describes. `others` are the names of further parameters that the query may have. If
 /// the polytope of the state must be built, a worker builds it. Errors: those of session::stateFromQuery(); `too_many`
 /// if the client's byte account has no room for the polytope. Throws the exceptions of runOnPool().
-asio::awaitable<Result<session::State>> Routes::state(session::QueryParameters query,
-                                                      std::span<const std::string_view> others,
-                                                      ClientAccountPtr client) {
+asio::awaitable<Result<session::State>> Routes::stateFromQueryOnWorker(session::QueryParameters query,
+                                                                       std::span<const std::string_view> others,
+                                                                       ClientAccountPtr client) {
     std::erase_if(query, [](const auto& entry) { return entry.first == "token"; });
     const session::Limits& limits = services_.options.session;
     const auto loader = std::make_shared<session::ObjectLoader>(
@@ -180,7 +180,7 @@ asio::awaitable<Result<session::State>> Routes::state(session::QueryParameters q
     for (;;) {
         auto state = session::stateFromQuery(query, limits, *loader, session::initialState(), others);
         if (!loader->isPending()) co_return state;
-        const auto reservation = client->byteAccount().reserve(loader->memoryNeeded());
+        const auto reservation = client->byteAccount().reserve(loader->estimatedMemory());
         if (!reservation) co_return kTooManyBytes;
         co_await runOnPool<std::monostate>(services_.pictureWorkers.workers(), loaderJob(loader),
                                            client->pictureJobQueue(), loader->estimatedDuration());
@@ -205,7 +205,7 @@ asio::awaitable<HttpReply> Routes::frame(session::QueryParameters query, ClientA
     try {
         const auto viewport = takeViewport(query, services_.options.frame);
         if (!viewport) co_return countedErrorReply(viewport.error());
-        const auto requested = co_await state(std::move(query), session::kPictureParameters, client);
+        const auto requested = co_await stateFromQueryOnWorker(std::move(query), session::kPictureParameters, client);
         if (!requested) co_return countedErrorReply(requested.error());
         const auto cost = pipeline::frameCost(session::pictureRequestOf(*requested, *viewport));
         auto png = co_await runOnPool<std::optional<SharedBytes>>(
@@ -228,7 +228,7 @@ asio::awaitable<HttpReply> Routes::file(session::QueryParameters query, const ex
     try {
         const auto exported = wire::extractExportRequest(query, format, services_.options.session.maxSlices);
         if (!exported) co_return countedErrorReply(exported.error());
-        const auto requested = co_await state(std::move(query), session::kFileParameters, client);
+        const auto requested = co_await stateFromQueryOnWorker(std::move(query), session::kFileParameters, client);
         if (!requested) co_return countedErrorReply(requested.error());
         const scene::PictureRequest picture = session::pictureRequestOf(*requested);
         const ExportResult made =
@@ -240,7 +240,8 @@ asio::awaitable<HttpReply> Routes::file(session::QueryParameters query, const ex
         if (!finished.warnings.empty())
             answer.headers.emplace_back("Export-Warnings", warningsField(finished.warnings));
         answer.headers.emplace_back(
-            "Content-Disposition", "attachment; filename=\"" + pipeline::fileName(requested->object, *exported) + "\"");
+            "Content-Disposition",
+            "attachment; filename=\"" + pipeline::exportFileName(requested->object, *exported) + "\"");
         co_return answer;
     } catch (const parallel::QueueFull&) {
         co_return countedErrorReply(kTooManyJobs);

@@ -40,9 +40,9 @@ class Routes {
     boost::asio::awaitable<HttpReply> frame(session::QueryParameters query, ClientAccountPtr client);
     boost::asio::awaitable<HttpReply> file(session::QueryParameters query, const exports::Format& format,
                                            ClientAccountPtr client);
-    boost::asio::awaitable<Result<session::State>> state(session::QueryParameters query,
-                                                         std::span<const std::string_view> others,
-                                                         ClientAccountPtr client);
+    boost::asio::awaitable<Result<session::State>> stateFromQueryOnWorker(session::QueryParameters query,
+                                                                          std::span<const std::string_view> others,
+                                                                          ClientAccountPtr client);
     HttpReply countedErrorReply(const Error& error);
     HttpReply readiness() const;
     HttpReply metrics();

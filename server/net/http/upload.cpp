@@ -36,7 +36,7 @@ const Error kNoUpload{ErrorCode::not_found,
 /// Sets the member of `load` that a query parameter names. Returns an error if the parameter is unknown or its value is
 /// invalid; otherwise an empty optional.
 std::optional<Error> setLoadMember(session::LoadObject& load, const std::string& name, const std::string& value) {
-    const auto found = std::ranges::find(session::kLoadTexts, name, &session::LoadTextMember::name);
+    const auto found = std::ranges::find(session::kLoadTexts, name, &session::NamedLoadOption::name);
     if (found != session::kLoadTexts.end()) {
         load.*(found->member) = value;
     } else if (name == "box") {
@@ -45,7 +45,7 @@ std::optional<Error> setLoadMember(session::LoadObject& load, const std::string&
         load.box = *box;
     } else {
         std::vector<std::string_view> names{"box"};
-        for (const session::LoadTextMember& each : session::kLoadTexts) names.push_back(each.name);
+        for (const session::NamedLoadOption& each : session::kLoadTexts) names.push_back(each.name);
         return Error{ErrorCode::bad_message, "an upload has no " + text::inQuotes(name) +
                                                  text::didYouMean(name, names) + "; its query may have " +
                                                  text::commaSeparated(names)};
@@ -53,7 +53,7 @@ std::optional<Error> setLoadMember(session::LoadObject& load, const std::string&
     return {};
 }
 
-std::optional<Error> setMembers(session::LoadObject& load, const session::QueryParameters& query) {
+std::optional<Error> setLoadMembers(session::LoadObject& load, const session::QueryParameters& query) {
     for (auto entry = query.begin(); entry != query.end(); ++entry) {
         const auto& [name, value] = *entry;
         if (name == "token") continue;
@@ -92,7 +92,7 @@ Result<UploadRequest> parseUpload(std::string_view method, const RequestTarget& 
         rest.remove_suffix(kMoments.size());
     }
     load.name = rest;
-    if (auto error = setMembers(load, target.query)) return std::move(*error);
+    if (auto error = setLoadMembers(load, target.query)) return std::move(*error);
     // checkLoad() requires an array format only if `load.file` is set. The file is not received yet, so the format is
     // checked here.
     const bool array = load.format.empty() || session::isArrayFormat(load.format);

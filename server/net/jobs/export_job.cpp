@@ -11,16 +11,16 @@ namespace {
 
 /// Counts an exported file in Metrics::filesUnderWay while this object exists. If markSucceeded() was called, the
 /// destructor records how long this object existed as the time to make the file.
-class ScopedFileMetrics {
+class ScopedExportMetrics {
   public:
-    explicit ScopedFileMetrics(Metrics& metrics) : metrics_(metrics) { metrics_.filesUnderWay.Increment(); }
-    ~ScopedFileMetrics() {
+    explicit ScopedExportMetrics(Metrics& metrics) : metrics_(metrics) { metrics_.filesUnderWay.Increment(); }
+    ~ScopedExportMetrics() {
         metrics_.filesUnderWay.Decrement();
         if (succeeded_) metrics_.fileTime.Observe(Seconds(std::chrono::steady_clock::now() - start_).count());
     }
     void markSucceeded() { succeeded_ = true; }
-    ScopedFileMetrics(const ScopedFileMetrics&) = delete;
-    ScopedFileMetrics& operator=(const ScopedFileMetrics&) = delete;
+    ScopedExportMetrics(const ScopedExportMetrics&) = delete;
+    ScopedExportMetrics& operator=(const ScopedExportMetrics&) = delete;
 
   private:
     Metrics& metrics_;
@@ -34,7 +34,7 @@ std::function<ExportResult(std::size_t worker)> exportJob(Services services, con
                                                           const exports::ExportRequest& request,
                                                           const ClientAccountPtr& client) {
     return [services, picture, request, client](std::size_t /*worker*/) -> ExportResult {
-        ScopedFileMetrics fileMetrics(services.metrics);
+        ScopedExportMetrics fileMetrics(services.metrics);
         auto held = client->byteAccount().forceReserve(0);
         exports::ExportLimits limits = services.options.file;
         limits.slices = services.options.session.maxSlices;

@@ -19,7 +19,7 @@ std::shared_ptr<CriticalValueSearch> CriticalValueSearches::add(const std::share
     return search;
 }
 
-void CriticalValueSearches::stop(const std::shared_ptr<Peer>& by) {
+void CriticalValueSearches::stopSearchesOf(const std::shared_ptr<Peer>& by) {
     for (const auto& search : runningSearches()) {
         if (search->isRequestedBy(by)) search->stop();
     }

@@ -43,7 +43,7 @@ class CriticalValueSearches {
     std::shared_ptr<CriticalValueSearch> add(const std::shared_ptr<Peer>& by, const session::State& state,
                                              std::stop_token workersStop);
     /// Stops the searches that the connection `by` has requested.
-    void stop(const std::shared_ptr<Peer>& by);
+    void stopSearchesOf(const std::shared_ptr<Peer>& by);
     /// Stops the searches whose results `state` does not need, because their arguments() differ from those of `state`.
     void stopUnneededSearches(const session::State& state);
 

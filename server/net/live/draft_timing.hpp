@@ -26,14 +26,14 @@ class DraftTiming {
     /// Begins a period of quick changes, however long ago the previous change was.
     void beginQuickChanges() { isQuick_ = true; }
     /// Ends the period of quick changes if the session has not changed for kRest before `now`.
-    void endIfRested(Clock::time_point now) { isQuick_ = isQuick_ && now < restEndTime(); }
+    void endQuickChangesIfRested(Clock::time_point now) { isQuick_ = isQuick_ && now < quickChangesEndTime(); }
 
     bool hasQuickChanges() const { return isQuick_; }
     /// Returns the time at which the session reached its current revision.
     Clock::time_point lastChangeTime() const { return changed_; }
-    /// Returns the time from which endIfRested() ends a period of quick changes, provided that no change comes before
-    /// this time.
-    Clock::time_point restEndTime() const { return changed_ + kRest; }
+    /// Returns the time from which endQuickChangesIfRested() ends a period of quick changes, provided that no change
+    /// comes before this time.
+    Clock::time_point quickChangesEndTime() const { return changed_ + kRest; }
 
   private:
     Clock::time_point changed_;

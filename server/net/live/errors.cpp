@@ -17,7 +17,7 @@ void sendError(Peer& peer, Metrics& metrics, const Error& error, std::optional<d
 Error logAndClassifyFailure(const session::State& state, const std::string& sessionId, std::uint64_t revision,
                             const std::exception& why, const Error& otherwise) {
     const fields::Field* const field = slicing::fieldIn(state.object);
-    if (field != nullptr && field->isLost()) {
+    if (field != nullptr && field->hasLostSamples()) {
         spdlog::warn("picture, file or command not completed session={} revision={} reason=\"{}\"", sessionId, revision,
                      why.what());
         return {ErrorCode::bad_field,

@@ -36,7 +36,7 @@ FieldRefinement::FieldRefinement(asio::any_io_executor strand, std::shared_ptr<M
       read_(std::move(read)),
       refined_(std::move(refined)) {}
 
-void FieldRefinement::update() {
+void FieldRefinement::startOrStopAsNeeded() {
     if (isRunning_) {
         if (!hasClients_() || metered_->value.current.source != coarser_) stop_.request_stop();
         return;
@@ -73,7 +73,7 @@ asio::awaitable<void> FieldRefinement::refine(std::shared_ptr<FieldRefinement> s
         if (isCanceled) break;                       // the server stops
         const bool isNext = finer && isImageLevel(*finer, load->finer->level);
         session::replaceField(value, self->coarser_, isNext ? *finer : session::withoutFinerLevels(self->coarser_),
-                              session::FieldReplacement::finer);
+                              session::FieldReplacementKind::finer);
         self->metered_->adjustReservationOrTrimUndo(true);
         self->refined_();
     }

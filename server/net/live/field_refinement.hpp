@@ -34,7 +34,7 @@ class FieldRefinement : public std::enable_shared_from_this<FieldRefinement> {
 
     /// Begins or ends the reading of finer levels, as needed for the shown object and the present clients. Must be
     /// called when the object or the clients may have changed.
-    void update();
+    void startOrStopAsNeeded();
 
   private:
     static boost::asio::awaitable<void> refine(std::shared_ptr<FieldRefinement> self);

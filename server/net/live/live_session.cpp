@@ -44,7 +44,7 @@ LiveSession::LiveSession(Services services, store::WriteBehindStore& writeBehind
               return loading->readArrayInBackground(std::move(load), std::move(stop));
           },
           [streams = publisher_, saver = saver_, &clock = services_.clock] {
-              streams->sessionChanged(clock.now());
+              streams->recordSessionChange(clock.now());
               saver->scheduleSave();
               streams->sendAndRequestPictures();
           })) {
@@ -70,14 +70,15 @@ void LiveSession::leave(std::shared_ptr<Peer> peer, std::function<bool(const ses
     stopSearches(peer);
     asio::post(strand_, [self = shared_from_this(), peer = std::move(peer), left = std::move(left)] {
         self->publisher_->remove(peer.get());
-        self->refinement_->update();
+        self->refinement_->startOrStopAsNeeded();
         if (left(self->session_)) self->saver_->stopSaving();
     });
 }
 
 void LiveSession::stopSearches(std::shared_ptr<Peer> peer) {
-    asio::post(strand_,
-               [self = shared_from_this(), peer = std::move(peer)] { self->loading_->criticalSearches().stop(peer); });
+    asio::post(strand_, [self = shared_from_this(), peer = std::move(peer)] {
+        self->loading_->criticalSearches().stopSearchesOf(peer);
+    });
 }
 
 void LiveSession::save(std::shared_ptr<void> completion) {
@@ -105,7 +106,7 @@ asio::awaitable<void> LiveSession::executeAndAnswer(std::shared_ptr<Peer> peer, 
     peer->send(
         textMessage(wire::welcomeMessage(credentials_.id, credentials_.token, limitsJson(services_.options), id)));
     publisher_->sendAndRequestPictures();
-    refinement_->update();
+    refinement_->startOrStopAsNeeded();
     co_return;
 }
 
@@ -113,7 +114,7 @@ template <>
 asio::awaitable<void> LiveSession::executeAndAnswer(std::shared_ptr<Peer> peer, wire::PictureShown shown,
                                                     RequestId id) {
     if (id) peer->send(textAnswer(wire::Done{revision()}, id));
-    publisher_->pictureShown(*peer, shown.revision);
+    publisher_->recordPictureShown(*peer, shown.revision);
     co_return;
 }
 
@@ -176,15 +177,15 @@ asio::awaitable<Result<LiveSession::CommandResult>> LiveSession::applyCommand(Cl
     // A command that extends a field that is not shown changes `loaded`, but not State::source.
     const bool hasNewObject = session_.current.source != source || session_.loaded != loaded;
     if (applied.revision == before && !hasNewObject) co_return applied;
-    if (applied.revision != before) publisher_->sessionChanged(services_.clock.now());
+    if (applied.revision != before) publisher_->recordSessionChange(services_.clock.now());
     loading_->criticalSearches().stopUnneededSearches(session_.current);
-    refinement_->update();
+    refinement_->startOrStopAsNeeded();
     // The first picture of a new field that is larger than memory is a draft, because a picture in full quality takes
     // much longer.
     const fields::Field* const field = slicing::fieldIn(session_.current.object);
     if (session_.current.source != source && field != nullptr && field->source) publisher_->beginDrafts();
     saver_->scheduleSave();
-    if (auto write = saver_->writeBeforeAcknowledgment(hasNewObject)) {
+    if (auto write = saver_->writeFunctionBeforeAcknowledgment(hasNewObject)) {
         if (awaitStore) {
             applied.owned = co_await awaitCallback<bool>(std::move(*write));
         } else {
@@ -196,7 +197,7 @@ asio::awaitable<Result<LiveSession::CommandResult>> LiveSession::applyCommand(Cl
 
 template <>
 asio::awaitable<void> LiveSession::executeAndAnswer(std::shared_ptr<Peer> peer, wire::Get get, RequestId id) {
-    return answers_->answer(std::move(peer), std::move(get), id);
+    return answers_->answerGet(std::move(peer), std::move(get), id);
 }
 
 template <>

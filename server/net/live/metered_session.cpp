@@ -16,7 +16,7 @@ void MeteredSession::adjustReservationOrTrimUndo(bool objectsChanged) {
     if (objectsChanged) objectMemory_ = session::unsharedMemoryOfObjects(value);
     const std::size_t bytes = objectMemory_ + session::historyMemoryWithoutObjects(value);
     if (bytes > reservation_.size() && !reservation_.growTo(bytes)) {
-        session::forgetOlderHalf(value);
+        session::forgetOlderUndoSteps(value);
         objectMemory_ = session::unsharedMemoryOfObjects(value);
     }
     reservation_.forceResize(objectMemory_ + session::historyMemoryWithoutObjects(value));

@@ -21,7 +21,7 @@ session::ObjectLoader ObjectLoading::makeLoader() const {
 asio::awaitable<std::optional<Error>> ObjectLoading::completePending(ClientAccountPtr by, std::shared_ptr<Peer> peer,
                                                                      session::ObjectLoader& loader,
                                                                      std::stop_token stop) {
-    auto reservation = metered_->client()->byteAccount().reserve(loader.memoryNeeded());
+    auto reservation = metered_->client()->byteAccount().reserve(loader.estimatedMemory());
     if (!reservation) co_return kTooManyBytes;
     const parallel::WorkerPool::Seconds cost = loader.estimatedDuration();
     const bool needsFile = loader.pendingNeedsFile();

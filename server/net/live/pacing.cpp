@@ -23,7 +23,7 @@ void PicturePacing::assumeShown(Clock::time_point now, Clock::duration timeout) 
     }
 }
 
-std::optional<PicturePacing::Clock::time_point> PicturePacing::deadline(Clock::duration timeout) const {
+std::optional<PicturePacing::Clock::time_point> PicturePacing::assumeShownTime(Clock::duration timeout) const {
     if (unshown_.empty() || !unshown_.front().written) return {};
     return *unshown_.front().written + timeout;
 }

@@ -36,7 +36,7 @@ class PicturePacing {
     void assumeShown(Clock::time_point now, Clock::duration timeout);
     /// Returns when assumeShown() with this `timeout` will mark the oldest unshown picture as shown. Returns an empty
     /// optional if there is no such picture, or if it has not been written yet.
-    std::optional<Clock::time_point> deadline(Clock::duration timeout) const;
+    std::optional<Clock::time_point> assumeShownTime(Clock::duration timeout) const;
 
   private:
     struct UnshownPicture {
@@ -44,7 +44,7 @@ class PicturePacing {
         std::optional<Clock::time_point> written;  // empty until the picture is written to the socket
     };
     std::optional<std::uint64_t> newest_;  // the newest revision that was sent or skipped
-    std::deque<UnshownPicture> unshown_;  // pictures sent but not shown, the oldest first
+    std::deque<UnshownPicture> unshown_;   // pictures sent but not shown, the oldest first
 };
 
 }  // namespace oval4d::net

@@ -47,7 +47,7 @@ RequestAnswerer::RequestAnswerer(Services services, SessionPublisher::Strand str
       publisher_(std::move(publisher)),
       loading_(std::move(loading)) {}
 
-asio::awaitable<void> RequestAnswerer::answer(std::shared_ptr<Peer> peer, wire::Get get, RequestId id) {
+asio::awaitable<void> RequestAnswerer::answerGet(std::shared_ptr<Peer> peer, wire::Get get, RequestId id) {
     const PictureStreamKey* const stream = publisher_->streamOf(*peer);
     if (stream == nullptr) co_return;
     PictureStreamKey key = *stream;

@@ -41,7 +41,7 @@ class RequestAnswerer : public std::enable_shared_from_this<RequestAnswerer> {
     /// Answers a request `get`, and returns when the answer is sent. A request for critical values of w is an
     /// exception: the function returns at once, and the answer follows later. Does nothing if the publisher does not
     /// know the client.
-    boost::asio::awaitable<void> answer(std::shared_ptr<Peer> peer, wire::Get get, RequestId id);
+    boost::asio::awaitable<void> answerGet(std::shared_ptr<Peer> peer, wire::Get get, RequestId id);
     void answer(Peer& peer, const wire::Measure& measure, RequestId id);
     void answer(Peer& peer, const wire::Ping& ping, RequestId id);
 

@@ -67,7 +67,7 @@ SessionManager::SessionManager(Services services, std::unique_ptr<store::Store> 
                    [&clock = services.clock] { return clock.now(); }) {}
 
 WriteBehindStore::Listener SessionManager::storeListener() {
-    return {[this](const std::string& id) { dropTakenSession(id); },
+    return {[this](const std::string& id) { disconnectTakenOverSession(id); },
             [this](const std::string& id) {
                 if (const auto session = find(id)) session->save();
             },
@@ -283,7 +283,7 @@ void SessionManager::finishOpening(const PendingJoin& pending, Result<session::S
         others = std::move(opening_[id]);
         opening_.erase(id);
         // Another server may have claimed the session while its record was decoded. If a server claims it from now on,
-        // dropTakenSession() finds it in live_, because that function locks mutex_.
+        // disconnectTakenOverSession() finds it in live_, because that function locks mutex_.
         if (value && !writeBehind_.ownsSession(id, fence)) value = kTakenOver;
         if (value) session = createLiveSession(pending.credentials, fence, pending.client, std::move(*value));
     }
@@ -319,7 +319,7 @@ void SessionManager::leave(const std::shared_ptr<LiveSession>& session, std::sha
 }
 
 /// Disconnects the clients of a session that another server has taken over.
-void SessionManager::dropTakenSession(const std::string& id) {
+void SessionManager::disconnectTakenOverSession(const std::string& id) {
     std::shared_ptr<LiveSession> session;
     {
         const std::lock_guard lock(mutex_);

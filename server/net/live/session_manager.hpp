@@ -83,7 +83,7 @@ class SessionManager : public std::enable_shared_from_this<SessionManager> {
     void finishOpening(const PendingJoin& pending, Result<session::Session> value, store::FencingToken fence = 0);
     std::shared_ptr<LiveSession> createLiveSession(store::SessionCredentials credentials, store::FencingToken fence,
                                                    const ClientAccountPtr& client, session::Session value);
-    void dropTakenSession(const std::string& id);
+    void disconnectTakenOverSession(const std::string& id);
 
     const Services services_;
     mutable std::mutex mutex_;

@@ -69,7 +69,7 @@ void SessionPublisher::closeAll(std::uint16_t code, const std::string& reason) {
     }
 }
 
-void SessionPublisher::pictureShown(const Peer& peer, std::uint64_t ofRevision) {
+void SessionPublisher::recordPictureShown(const Peer& peer, std::uint64_t ofRevision) {
     assertOnStrand();
     const auto subscriber = subscribers_.find(&peer);
     if (subscriber == subscribers_.end()) return;
@@ -107,7 +107,7 @@ void SessionPublisher::sendAndRequestPictures() {
     }
     if (!missing.empty()) requestPictures(std::move(missing));
     if (allServed) pictures_.clear();
-    if (wanted == slicing::Quality::draft) scheduleRefinement();
+    if (wanted == slicing::Quality::draft) scheduleFullQualityPictures();
 }
 
 /// Returns `draft` while a field moves or changes in quick succession, so that its pictures are made fast; otherwise
@@ -118,15 +118,16 @@ slicing::Quality SessionPublisher::wantedQuality() const {
                                                                          : slicing::Quality::full;
 }
 
-/// Schedules pictures of full quality for the end of the period of quick changes (DraftTiming::restEndTime()). Only the
-/// timer ends this period. So wantedQuality() returns `draft` until the timer expires, and a draft is requested first
-/// even if the server was too busy to request it before restEndTime().
-void SessionPublisher::scheduleRefinement() {
+/// Schedules pictures of full quality for the end of the period of quick changes (DraftTiming::quickChangesEndTime()).
+/// Only the timer ends this period. So wantedQuality() returns `draft` until the timer expires, and a draft is
+/// requested first even if the server was too busy to request it before quickChangesEndTime().
+void SessionPublisher::scheduleFullQualityPictures() {
     if (session_.current.isMoving()) return;
-    refineTimer_.startUnlessRunning(weak_from_this(), draftTiming_.restEndTime(), [](SessionPublisher& publisher) {
-        publisher.draftTiming_.endIfRested(publisher.services_.clock.now());
-        publisher.sendAndRequestPictures();
-    });
+    refineTimer_.startUnlessRunning(weak_from_this(), draftTiming_.quickChangesEndTime(),
+                                    [](SessionPublisher& publisher) {
+                                        publisher.draftTiming_.endQuickChangesIfRested(publisher.services_.clock.now());
+                                        publisher.sendAndRequestPictures();
+                                    });
 }
 
 /// Makes the next step of a motion (see session::advanceMotionBy()) if the step is due, and if a client has the current
@@ -171,16 +172,21 @@ void SessionPublisher::requestPictures(std::vector<PictureStreamKey> wanted) {
     const parallel::WorkerPool::JobQueuePtr jobQueue = subscriberToCharge(wanted).jobQueues.pictures;
     Seconds cost{0};
     for (const PictureStreamKey& key : wanted) cost += pictureCost(session_.current, key, quality);
-    RevisionPicturesJob next{
-        inProgress_.currentOrNextJobNumber(), session_.current,  revision(), draftTiming_.lastChangeTime(), quality,
-        pictures_.find(revision(), quality),  std::move(wanted), section_};
+    RevisionPicturesJob next{inProgress_.currentOrNextJobNumber(),
+                             session_.current,
+                             revision(),
+                             draftTiming_.lastChangeTime(),
+                             quality,
+                             pictures_.findSnapshot(revision(), quality),
+                             std::move(wanted),
+                             section_};
     {
         const std::lock_guard lock(queuedJobMutex_);
         if (!isNew && !queuedJob_) return;
         queuedJob_ = std::move(next);
     }
     if (!isNew) return;
-    const auto job = [self = shared_from_this()](pipeline::Pipeline& pipeline) { self->runJob(pipeline); };
+    const auto job = [self = shared_from_this()](pipeline::Pipeline& pipeline) { self->makeQueuedPictures(pipeline); };
     if (services_.pictureWorkers.post(job, jobQueue, cost)) {
         inProgress_.recordQueued();
     } else {
@@ -206,7 +212,7 @@ void SessionPublisher::scheduleRetry() {
                                    &SessionPublisher::sendAndRequestPictures);
 }
 
-void SessionPublisher::runJob(pipeline::Pipeline& pipeline) {
+void SessionPublisher::makeQueuedPictures(pipeline::Pipeline& pipeline) {
     RevisionPicturesJob job;
     {
         const std::lock_guard lock(queuedJobMutex_);
@@ -384,8 +390,8 @@ void SessionPublisher::sendState(Subscriber& subscriber, const SessionSnapshot& 
 void SessionPublisher::scheduleShownTimeout() {
     std::optional<Clock::time_point> first;
     for (const auto& [key, subscriber] : subscribers_) {
-        const auto deadline = subscriber.pacing.deadline(shownTimeout());
-        if (deadline && (!first || *deadline < *first)) first = deadline;
+        const auto assumeShownTime = subscriber.pacing.assumeShownTime(shownTimeout());
+        if (assumeShownTime && (!first || *assumeShownTime < *first)) first = assumeShownTime;
     }
     if (first) paceTimer_.startUnlessRunning(weak_from_this(), *first, &SessionPublisher::assumeOverduePicturesShown);
 }

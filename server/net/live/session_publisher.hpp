@@ -47,7 +47,8 @@ class SessionPublisher : public std::enable_shared_from_this<SessionPublisher> {
         parallel::WorkerPool::JobQueuePtr pictures, exports;
     };
 
-    /// `sessionId` is for the log. `metered` is the session; its owner must call sessionChanged() after each change.
+    /// `sessionId` is for the log. `metered` is the session; its owner must call recordSessionChange() after each
+    /// change.
     SessionPublisher(Services services, Strand strand, std::string sessionId, std::shared_ptr<MeteredSession> metered);
 
     /// Sets the function that is called after each step of a motion, so that its caller can save the changed session.
@@ -69,11 +70,11 @@ class SessionPublisher : public std::enable_shared_from_this<SessionPublisher> {
     void closeAll(std::uint16_t code, const std::string& reason);
 
     /// Records that the session has reached a new revision.
-    void sessionChanged(Clock::time_point now) { draftTiming_.recordChange(now); }
+    void recordSessionChange(Clock::time_point now) { draftTiming_.recordChange(now); }
     /// Makes only drafts of the pictures of a field until the session rests, as during quick changes (see DraftTiming).
     void beginDrafts() { draftTiming_.beginQuickChanges(); }
     /// Records that a client has shown the picture of this revision, and sends the next picture.
-    void pictureShown(const Peer& peer, std::uint64_t ofRevision);
+    void recordPictureShown(const Peer& peer, std::uint64_t ofRevision);
     /// Sends every client the newest state or picture, if it is ready and the client can receive it. Requests missing
     /// pictures. Must be called whenever the session may have changed, a client may have become able to receive a
     /// picture, or a worker may have become available.
@@ -93,7 +94,9 @@ class SessionPublisher : public std::enable_shared_from_this<SessionPublisher> {
     /// Returns the section that was named last. It may belong to an earlier state. Empty if no section has been named.
     const std::optional<slicing::NamedSection>& lastNamedSection() const { return section_; }
     /// Returns the snapshot of the current revision in full quality; null if there is none.
-    SessionSnapshotPtr currentFullSnapshot() const { return pictures_.find(revision(), slicing::Quality::full); }
+    SessionSnapshotPtr currentFullSnapshot() const {
+        return pictures_.findSnapshot(revision(), slicing::Quality::full);
+    }
 
   private:
     // A connected client of this session, with what it has been sent.
@@ -137,7 +140,7 @@ class SessionPublisher : public std::enable_shared_from_this<SessionPublisher> {
     bool isNamedSectionCurrent() const;
     void advanceMotion();
     slicing::Quality wantedQuality() const;
-    void scheduleRefinement();
+    void scheduleFullQualityPictures();
     void requestPictures(std::vector<PictureStreamKey> wanted);
     const Subscriber& subscriberToCharge(const std::vector<PictureStreamKey>& wanted) const;
     void scheduleRetry();
@@ -152,7 +155,7 @@ class SessionPublisher : public std::enable_shared_from_this<SessionPublisher> {
     bool isReadyForNextPicture(const Subscriber& subscriber) const;
 
     // The functions of this group run on a worker.
-    void runJob(pipeline::Pipeline& pipeline);
+    void makeQueuedPictures(pipeline::Pipeline& pipeline);
     void onLastPictureDrawn(const RevisionPicturesJob& job, const PictureStreamKey& key);
 
     // The members of this group do not change after construction.

@@ -27,7 +27,7 @@ void SessionSaver::saveNow(store::SaveCallback written) {
     if (!detached_) writeBehind_.save(id_, fence_, *session_, SaveScope::whole, std::move(written));
 }
 
-std::optional<SessionSaver::WriteFunction> SessionSaver::writeBeforeAcknowledgment(bool hasNewObject) {
+std::optional<SessionSaver::WriteFunction> SessionSaver::writeFunctionBeforeAcknowledgment(bool hasNewObject) {
     if (writeBehind_.writeTiming() != WriteTiming::at_once) return std::nullopt;
     // Saving only the head of a record saves no objects, so a change with a new object requires SaveScope::whole.
     return makeWriteFunction(hasNewObject ? SaveScope::whole : SaveScope::head);

@@ -46,7 +46,7 @@ class SessionSaver : public std::enable_shared_from_this<SessionSaver> {
     /// be written before it is acknowledged. `hasNewObject` tells whether the change has added or replaced an object.
     /// If stopSaving() was called before the function is called, the function writes nothing, and calls its argument
     /// with `false`.
-    std::optional<WriteFunction> writeBeforeAcknowledgment(bool hasNewObject);
+    std::optional<WriteFunction> writeFunctionBeforeAcknowledgment(bool hasNewObject);
 
     /// Makes this object never write the session to the store again.
     void stopSaving() { detached_ = true; }

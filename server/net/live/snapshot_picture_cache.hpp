@@ -21,7 +21,7 @@ class SnapshotPictureCache {
     /// Returns the snapshot in the cache; null if there is none.
     const SessionSnapshotPtr& snapshot() const { return snapshot_; }
     /// Returns the snapshot in the cache if it has this revision and quality, else null.
-    SessionSnapshotPtr find(std::uint64_t revision, slicing::Quality quality) const {
+    SessionSnapshotPtr findSnapshot(std::uint64_t revision, slicing::Quality quality) const {
         const bool isKept = snapshot_ && snapshot_->revision == revision && snapshot_->quality == quality;
         return isKept ? snapshot_ : nullptr;
     }

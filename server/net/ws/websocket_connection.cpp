@@ -106,7 +106,7 @@ void WebSocketConnection::closeWithoutHello() {
 /// notices the client's pongs only while it reads. Before the client has joined a session, only one message at a time
 /// is read, because the hello changes the maximum length of messages.
 asio::awaitable<void> WebSocketConnection::readLoop() {
-    ReceivedMessage incoming = co_await read();
+    ReceivedMessage incoming = co_await readMessage();
     while (!incoming.fault) {
         swap(buffer_, message_);
         startHandling(std::move(incoming));
@@ -147,7 +147,7 @@ asio::awaitable<WebSocketConnection::ReceivedMessage> WebSocketConnection::readA
     } else {
         co_await waitUntil(executedSignal_, [this] { return !executing_; });
     }
-    ReceivedMessage next = co_await read();
+    ReceivedMessage next = co_await readMessage();
     if (next.fault && session_) session_->stopSearches(shared_from_this());
     co_return next;
 }
@@ -170,7 +170,7 @@ asio::awaitable<void> WebSocketConnection::handleMessage(ReceivedMessage incomin
 }
 
 /// Reads one message into `buffer_`. A message that is refused because of its length is read to its end and discarded.
-asio::awaitable<WebSocketConnection::ReceivedMessage> WebSocketConnection::read() {
+asio::awaitable<WebSocketConnection::ReceivedMessage> WebSocketConnection::readMessage() {
     ReceivedMessage incoming;
     bool checked = false;
     co_await waitUntil(drainedSignal_, [this] { return unsent_ <= services_.options.maxUnsent; });
@@ -275,7 +275,7 @@ asio::awaitable<void> WebSocketConnection::execute(wire::Request request) {
 }
 
 asio::awaitable<void> WebSocketConnection::handleHello(wire::Hello hello, RequestId id) {
-    const pipeline::FrameLimits& limits = services_.options.frame;
+    const pipeline::PictureSizeLimits& limits = services_.options.frame;
     const auto viewport = pipeline::checkViewport(hello.viewport.value_or(pipeline::defaultViewport(limits)), limits);
     if (!viewport) {
         sendError(viewport.error(), id);
@@ -390,7 +390,7 @@ void WebSocketConnection::closeForShutdown() {
             self->unsent_ -= self->outbox_.back().message.bytes.size();
             self->outbox_.pop_back();
         }
-        self->drainedSignal_.cancel();  // wakes read(), which waits while too many bytes are unsent
+        self->drainedSignal_.cancel();  // wakes readMessage(), which waits while too many bytes are unsent
         if (!self->ended_) self->startClosing(close_code::kStopping, "the server is stopping");
     });
 }

@@ -81,7 +81,7 @@ class WebSocketConnection final : public Peer, public std::enable_shared_from_th
     void discardMessage();
     boost::asio::awaitable<void> handleMessage(ReceivedMessage incoming);
     boost::asio::awaitable<ReceivedMessage> readAhead();
-    boost::asio::awaitable<ReceivedMessage> read();
+    boost::asio::awaitable<ReceivedMessage> readMessage();
     void admitOrRefuseLongMessage(ReceivedMessage& incoming);
     boost::asio::awaitable<void> waitUntil(boost::asio::steady_timer& changed, std::function<bool()> isTrue);
     boost::asio::awaitable<void> parseAndExecute(std::string_view text);

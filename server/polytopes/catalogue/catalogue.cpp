@@ -79,21 +79,22 @@ std::vector<CatalogueEntry> makeCatalogueEntries() {
     std::vector<CatalogueEntry> entries;
     for (const NamedWythoffianPolychoron& row : namedWythoffianPolychora()) entries.push_back(catalogueEntryOf(row));
     entries.push_back(
-        catalogueEntryOf(snub24Cell(), "other", {"sadi", "snub icositetrachoron", "snub disicositetrachoron"}));
-    entries.push_back(catalogueEntryOf(grandAntiprism(), "other", {"gap", "pentagonal double antiprismoid"}));
+        catalogueEntryOf(snub24CellDesign(), "other", {"sadi", "snub icositetrachoron", "snub disicositetrachoron"}));
+    entries.push_back(catalogueEntryOf(grandAntiprismDesign(), "other", {"gap", "pentagonal double antiprismoid"}));
     for (const NamedPolyhedron& base : namedPolyhedra()) {
         // `prism` is empty for the cube, whose prism is the 8-cell, and for the Kepler–Poinsot solids, whose prisms are
         // not in the catalogue.
         if (base.prism.empty()) continue;
-        entries.push_back(
-            catalogueEntryOf(prismOf(base), "prism", {std::string(base.prism), std::string(base.name) + " prism"}));
+        entries.push_back(catalogueEntryOf(prismDesignOver(base), "prism",
+                                           {std::string(base.prism), std::string(base.name) + " prism"}));
     }
     for (const auto& [sides, bowersName] : kAntiprismPrisms) {
-        entries.push_back(catalogueEntryOf(antiprismPrism(sides), "antiprism prism", {std::string(bowersName)}));
+        entries.push_back(catalogueEntryOf(antiprismPrismDesign(sides), "antiprism prism", {std::string(bowersName)}));
     }
     for (const auto& [p, q, bowersName] : kDuoprisms) {
         const std::string names = adjectiveOf({p, 1}) + (p == q ? "" : "-" + adjectiveOf({q, 1})) + " duoprism";
-        entries.push_back(catalogueEntryOf(duoprism({p, 1}, {q, 1}), "duoprism", {std::string(bowersName), names}));
+        entries.push_back(
+            catalogueEntryOf(duoprismDesign({p, 1}, {q, 1}), "duoprism", {std::string(bowersName), names}));
     }
     return entries;
 }
@@ -172,7 +173,7 @@ std::optional<PolytopeNameError> tooLargeError(const PolytopeDesign& design, std
 // Returns the design of the polytope that `text` names, like designNamed(). `text` is a part of a longer name, such as
 // "tesseract" in "dual of tesseract". If designNamed() returns an error without a message, adds a message that quotes
 // this part.
-PolytopeDesignOrError designWithin(std::string_view text, std::size_t maxVertices) {
+PolytopeDesignOrError designOfNamePart(std::string_view text, std::size_t maxVertices) {
     auto result = designNamed(text, maxVertices);
     if (auto* error = std::get_if<PolytopeNameError>(&result); error != nullptr && error->message.empty()) {
         error->message = text::inQuotes(text) + " is not the name of a polytope";
@@ -203,7 +204,8 @@ const CatalogueEntry* findEntry(std::string_view text) {
 
 PolytopeDesignOrError designNamed(std::string_view text, std::size_t maxVertices) {
     if (const auto* entry = findEntry(text)) return entry->design;
-    auto described = designDescribedBy(text, [=](std::string_view base) { return designWithin(base, maxVertices); });
+    auto described =
+        designDescribedBy(text, [=](std::string_view base) { return designOfNamePart(base, maxVertices); });
     if (const auto* design = std::get_if<PolytopeDesign>(&described)) {
         if (design->name.size() > kMaxNameBytes) {
             return PolytopeNameError::impossible("the name has " + std::to_string(design->name.size()) +

@@ -53,8 +53,8 @@ bool hasMisplacedCircumradius(const std::vector<std::string>& words) {
 // text names a polyhedron, or it has the form of a construction but begins with an unknown word. Returns an empty
 // string for other texts.
 std::string unknownNameReason(const std::vector<std::string>& words) {
-    if (const auto solid = solidNamed(words); solid && std::holds_alternative<Solid>(*solid)) {
-        const std::string name = nameOf(std::get<Solid>(*solid));
+    if (const auto solid = solidNamed(words); solid && std::holds_alternative<SolidDescription>(*solid)) {
+        const std::string name = nameOf(std::get<SolidDescription>(*solid));
         return "the " + name + " is a polyhedron; 4-D polytopes over it are the prism of " + name +
                ", the pyramid of " + name + " and the bipyramid of " + name;
     }

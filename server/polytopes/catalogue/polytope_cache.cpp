@@ -12,7 +12,7 @@ const std::shared_ptr<const Polytope>& fiveCell() {
     return shared;
 }
 
-PolytopeCache::SharedPolytope PolytopeCache::get(const PolytopeDesign& design) {
+PolytopeCache::SharedPolytope PolytopeCache::findOrBuild(const PolytopeDesign& design) {
     if (design.name == fiveCell()->name) return fiveCell();
     const auto slot = findOrAddSlot(design.name);
     const std::scoped_lock building(slot->building);

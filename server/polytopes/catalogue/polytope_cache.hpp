@@ -31,7 +31,7 @@ class PolytopeCache {
     /// Returns the polytope of this design, and builds it on the calling thread if the cache does not find it.
     /// Concurrent calls for the same design wait until the polytope is built. Throws std::invalid_argument as build()
     /// does.
-    SharedPolytope get(const PolytopeDesign& design);
+    SharedPolytope findOrBuild(const PolytopeDesign& design);
 
     /// Returns the polytope of this design if the cache finds it, else nullptr. Never waits for a polytope to be
     /// built, except for the first use of the 5-cell.

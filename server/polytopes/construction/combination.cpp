@@ -133,7 +133,7 @@ PolytopeDesignOrError productNamed(const Words& one, const Words& other, const D
             "product of 5-gon and 7-gon, or of a polyhedron and a segment, as in product of cube and "
             "segment");
     }
-    return duoprism(*p, *q);
+    return duoprismDesign(*p, *q);
 }
 
 // Parses the name of a combination of two polytopes: "hull of tesseract and 16-cell", "intersection of 120-cell and

@@ -38,7 +38,7 @@ ConvexHull hullOf(std::span<const glm::dvec4> points) {
 
 // Moves points such that their mean is the origin, and returns true. If the mean is already the origin, apart from
 // rounding errors, leaves the points unchanged and returns false.
-bool center(std::vector<glm::dvec4>& points) {
+bool centerAtOrigin(std::vector<glm::dvec4>& points) {
     glm::dvec4 middle(0);
     double largest = 0;
     for (const glm::dvec4& point : points) {
@@ -62,12 +62,12 @@ Polytope hullPolytope(std::string name, std::span<const glm::dvec4> points) {
 
 Polytope centeredHull(std::string name, std::span<const glm::dvec4> points) {
     ConvexHull hull = hullOf(points);
-    center(hull.vertices);
+    centerAtOrigin(hull.vertices);
     return polytopeFromHull(std::move(name), std::move(hull));
 }
 
 Polytope centered(Polytope polytope) {
-    if (!center(polytope.vertices)) return polytope;
+    if (!centerAtOrigin(polytope.vertices)) return polytope;
     return makePolytope(std::move(polytope.name), std::move(polytope.vertices), std::move(polytope.faces),
                         std::move(polytope.cells));
 }

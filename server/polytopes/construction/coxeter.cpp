@@ -107,7 +107,7 @@ Orbit orbitOf(const glm::dvec4& seed, const Mirrors& mirrors, std::size_t most) 
 // The orbits of sets under the reflections in the mirrors. A set is a 2-face, whose members are vertices, or a
 // cell, whose members are 2-faces. A set is stored as a list of the numbers of its members. The list of the image
 // of a set has the images of the members in the same order.
-class SetOrbits {
+class OrbitsOfSets {
   public:
     geometry::JaggedArray lists;
     ReflectionImages images;
@@ -228,7 +228,7 @@ Polytope wythoffConstruction(std::string name, const CoxeterDiagram& diagram, co
     if (!generatesElement(diagram, 0xfU))
         throw std::invalid_argument("every connected part of the diagram needs a ringed node");
     Orbit vertices = orbitOf(generatingVertex(mirrors, diagram.ringed), mirrors, maxVertices);
-    SetOrbits faces;
+    OrbitsOfSets faces;
     std::array<std::uint32_t, 16>
         // index: a MirrorSet of two mirrors; value: the 2-face that they generate at the generating vertex
         faceOfPair{};
@@ -241,7 +241,7 @@ Polytope wythoffConstruction(std::string name, const CoxeterDiagram& diagram, co
             faceOfPair.at(pair) = *face;
         }
     }
-    SetOrbits cells;
+    OrbitsOfSets cells;
     std::vector<std::uint32_t> cellTypes;
     const auto symmetries = automorphismsOf(diagram);
     for (int left = 0; left < kMirrors; ++left) {

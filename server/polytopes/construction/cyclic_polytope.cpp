@@ -27,13 +27,13 @@ namespace oval4d::polytopes {
 namespace {
 
 // Returns the number of cells of the cyclic polytope with n vertices.
-constexpr std::uint64_t cyclicCells(std::uint64_t n) { return n * (n - 3) / 2; }
+constexpr std::uint64_t cyclicPolytopeCellCount(std::uint64_t n) { return n * (n - 3) / 2; }
 
 // The allowed numbers of vertices. With one vertex more than 448, the polytope would have more than kMaxHullCells
 // cells.
 constexpr int kLeastCyclicVertices = 5, kMostCyclicVertices = 448;
-static_assert(cyclicCells(kMostCyclicVertices) <= kMaxHullCells &&
-              cyclicCells(kMostCyclicVertices + 1) > kMaxHullCells);
+static_assert(cyclicPolytopeCellCount(kMostCyclicVertices) <= kMaxHullCells &&
+              cyclicPolytopeCellCount(kMostCyclicVertices + 1) > kMaxHullCells);
 
 /// A recipe for a cyclic polytope other than the 5-cell (Ziegler, Lectures on Polytopes, section 0). The polytope is
 /// the convex hull of n points at equal distances on the trigonometric moment curve t ↦ (cos t, sin t, cos 2t, sin 2t).
@@ -51,7 +51,7 @@ class CyclicPolytopeRecipe : public Recipe {
 
     ElementCounts countElements() const override {
         const std::uint64_t n = n_;
-        return {n, n * (n - 1) / 2, n * (n - 3), cyclicCells(n)};
+        return {n, n * (n - 1) / 2, n * (n - 3), cyclicPolytopeCellCount(n)};
     }
     // The symmetries t → t + 2π/n and t → −t of the points on the curve generate a dihedral group of order 2n. If n is
     // 6, there are more symmetries: the vertices with even numbers and those with odd numbers are equal triangles in

@@ -60,7 +60,7 @@ class SnubPrismRecipe : public Recipe {
     SnubPrismRecipe(DiagramBranch p, DiagramBranch q) : p_(p), q_(q) {}
 
     ElementCounts countElements() const override {
-        const std::uint64_t vertices = rotations();
+        const std::uint64_t vertices = rotationGroupOrder();
         std::uint64_t edges = vertices / 2;  // the edges between two of the triangles counted below
         std::uint64_t faces = vertices;      // the triangles of the snub that are neither p-gons nor q-gons
         for (const DiagramBranch b : {p_, q_}) {
@@ -72,7 +72,7 @@ class SnubPrismRecipe : public Recipe {
     // The symmetries of the prism are those of its base, each with or without a reflection that exchanges the two
     // bases. A snub base has only the rotations as symmetries. An antiprism has twice as many, because half of its
     // symmetries are not rotations.
-    std::uint64_t symmetryOrder() const override { return rotations() * (q_.numerator == 2 ? 4 : 2); }
+    std::uint64_t symmetryOrder() const override { return rotationGroupOrder() * (q_.numerator == 2 ? 4 : 2); }
     std::string linearNotation() const override {
         // By convention, the diagram of an antiprism begins with the branch number 2: the prism over the 5-antiprism is
         // "s2s5s x", not "s5s2s x".
@@ -87,14 +87,14 @@ class SnubPrismRecipe : public Recipe {
 
   private:
     // Returns the order of the rotation group of {p, q}, which is also the number of vertices of the snub polyhedron.
-    std::uint64_t rotations() const {
+    std::uint64_t rotationGroupOrder() const {
         return groupOrder(CoxeterDiagram::linear(p_, q_, {}, {true, true, true, true})) / 4;
     }
 
     DiagramBranch p_, q_;
 };
 
-std::shared_ptr<const Recipe> wythoffian(const CoxeterDiagram& diagram) {
+std::shared_ptr<const Recipe> makeWythoffianRecipe(const CoxeterDiagram& diagram) {
     return std::make_shared<WythoffianRecipe>(diagram);
 }
 
@@ -104,7 +104,8 @@ const std::map<CoxeterDiagram, PolytopeDesign>& designsByDiagram() {
     static const std::map<CoxeterDiagram, PolytopeDesign> kDesigns = [] {
         std::map<CoxeterDiagram, PolytopeDesign> designs;
         for (const NamedWythoffianPolychoron& row : namedWythoffianPolychora()) {
-            const PolytopeDesign design{std::string(row.name), wythoffian(parseValidDiagram(row.linearNotation))};
+            const PolytopeDesign design{std::string(row.name),
+                                        makeWythoffianRecipe(parseValidDiagram(row.linearNotation))};
             designs.emplace(canonical(parseValidDiagram(row.linearNotation)), design);
             for (const std::string_view other : text::splitAtCommas(row.otherDiagrams))
                 designs.emplace(canonical(parseValidDiagram(other)), design);
@@ -112,10 +113,10 @@ const std::map<CoxeterDiagram, PolytopeDesign>& designsByDiagram() {
         for (const NamedPolyhedron& base : namedPolyhedra()) {
             if (base.linearNotation.starts_with('s')) continue;
             const CoxeterDiagram diagram = parseValidDiagram(std::string(base.linearNotation) + " x");
-            designs.emplace(canonical(diagram),
-                            base.name == "cube"
-                                ? designs.at(canonical(parseValidDiagram("x4o3o3o")))
-                                : PolytopeDesign{std::string(base.adjective) + " prism", wythoffian(diagram)});
+            designs.emplace(canonical(diagram), base.name == "cube"
+                                                    ? designs.at(canonical(parseValidDiagram("x4o3o3o")))
+                                                    : PolytopeDesign{std::string(base.adjective) + " prism",
+                                                                     makeWythoffianRecipe(diagram)});
         }
         // The tetrahedral group is a subgroup of the octahedral group. The bases of the following three prisms have the
         // full octahedral symmetry, so each of these prisms also has a diagram of the octahedral group.
@@ -137,7 +138,7 @@ PolytopeDesign designOf(const CoxeterDiagram& diagram) {
     std::vector<RegularPolygon> polygons;
     int single = 0;
     for (const MirrorSet component : componentsOf(diagram)) {
-        if (std::popcount(component) > 2) return {linearNotationOf(diagram), wythoffian(diagram)};
+        if (std::popcount(component) > 2) return {linearNotationOf(diagram), makeWythoffianRecipe(diagram)};
         if (std::popcount(component) == 1) {
             if (++single % 2 == 0) polygons.push_back(kSquare);
             continue;
@@ -147,23 +148,23 @@ PolytopeDesign designOf(const CoxeterDiagram& diagram) {
         polygons.push_back(diagram.branches[a][b]);
         if (diagram.ringed.at(a) && diagram.ringed.at(b)) polygons.back().numerator *= 2;
     }
-    return duoprism(polygons.at(0), polygons.at(1));
+    return duoprismDesign(polygons.at(0), polygons.at(1));
 }
 
-PolytopeDesign duoprism(RegularPolygon p, RegularPolygon q) {
+PolytopeDesign duoprismDesign(RegularPolygon p, RegularPolygon q) {
     if (p == kSquare && q == kSquare) return designOf(parseValidDiagram("x4o3o3o"));
     if (q < p) std::swap(p, q);
     return {textOf(p) + "," + textOf(q) + "-duoprism",
-            wythoffian(CoxeterDiagram::linear(p, {}, q, {true, false, true, false}))};
+            makeWythoffianRecipe(CoxeterDiagram::linear(p, {}, q, {true, false, true, false}))};
 }
 
-PolytopeDesign antiprismPrism(int sides) {
+PolytopeDesign antiprismPrismDesign(int sides) {
     if (sides == 3) return designOf(parseValidDiagram("o4o3x x"));
     return {adjectiveOf({sides, 1}) + " antiprism prism",
             std::make_shared<SnubPrismRecipe>(DiagramBranch{sides, 1}, DiagramBranch{2, 1})};
 }
 
-PolytopeDesign prismOf(const NamedPolyhedron& base) {
+PolytopeDesign prismDesignOver(const NamedPolyhedron& base) {
     if (!base.linearNotation.starts_with('s'))
         return designOf(parseValidDiagram(std::string(base.linearNotation) + " x"));
     const auto digit = [&](std::size_t i) { return DiagramBranch{base.linearNotation[i] - '0', 1}; };

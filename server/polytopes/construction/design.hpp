@@ -21,15 +21,15 @@ PolytopeDesign designOf(const CoxeterDiagram& diagram);
 /// Returns the design of the duoprism of the regular polygons p and q, which may be stars. The caller must ensure that
 /// both have at least 3 sides. The name of the design is "p,q-duoprism", with the smaller number of sides first, as in
 /// "5,7-duoprism". For p = q = 4, the design is that of the 8-cell.
-PolytopeDesign duoprism(RegularPolygon p, RegularPolygon q);
+PolytopeDesign duoprismDesign(RegularPolygon p, RegularPolygon q);
 
 /// Returns the design of the prism over the antiprism of a regular polygon, such as "pentagonal antiprism prism".
 /// `sides` is the number of sides of the polygon, at least 3. For 3 sides, the design is that of the octahedral prism.
-PolytopeDesign antiprismPrism(int sides);
+PolytopeDesign antiprismPrismDesign(int sides);
 
 /// Returns the design of the prism over a polyhedron, such as "truncated cubic prism". For the cube, the design is that
 /// of the 8-cell.
-PolytopeDesign prismOf(const NamedPolyhedron& base);
+PolytopeDesign prismDesignOver(const NamedPolyhedron& base);
 
 /// Returns the numbers of elements of the polytope without building it. For a polytope that is built as a convex hull,
 /// the numbers are estimates.

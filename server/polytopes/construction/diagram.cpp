@@ -79,7 +79,7 @@ const std::vector<FiniteCoxeterGroup>& finiteCoxeterGroups() {
 }
 
 // Returns the order of the Coxeter group of a connected component; 0 if the group is not finite.
-std::uint64_t orderOfComponent(const CoxeterDiagram& diagram, MirrorSet component) {
+std::uint64_t groupOrderOfComponent(const CoxeterDiagram& diagram, MirrorSet component) {
     constexpr std::uint64_t kD4 = 192;
     std::vector<DiagramBranch> chain = branchesAlong(diagram, component);
     if (std::popcount(component) == 1) return 2;
@@ -156,7 +156,7 @@ bool generatesElement(const CoxeterDiagram& diagram, MirrorSet set) {
 
 std::uint64_t groupOrder(const CoxeterDiagram& diagram, MirrorSet set) {
     std::uint64_t order = 1;
-    for (const MirrorSet component : componentsOf(diagram, set)) order *= orderOfComponent(diagram, component);
+    for (const MirrorSet component : componentsOf(diagram, set)) order *= groupOrderOfComponent(diagram, component);
     return order;
 }
 

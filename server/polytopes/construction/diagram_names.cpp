@@ -63,7 +63,7 @@ PolytopeDesignOrError designFrom(const Result& read) {
     return designOf(std::get<CoxeterDiagram>(read));
 }
 
-std::optional<PolytopeDesignOrError> operationNamed(const PolytopeNameWords& text) {
+std::optional<PolytopeDesignOrError> designNamedByOperation(const PolytopeNameWords& text) {
     for (const RingOperation& operation : kOperations) {
         if (text.words[0] != operation.name) continue;
         for (const NamedWythoffianPolychoron& row : namedWythoffianPolychora()) {
@@ -76,7 +76,7 @@ std::optional<PolytopeDesignOrError> operationNamed(const PolytopeNameWords& tex
     return {};
 }
 
-std::optional<PolytopeDesignOrError> schlaefliNamed(const PolytopeNameWords& text) {
+std::optional<PolytopeDesignOrError> designNamedBySchlaefli(const PolytopeNameWords& text) {
     const std::string symbol = text.joinedFrom(0);
     if (symbol.find('{') == std::string::npos) return {};
     return designFrom(parseSchlaefli(symbol));
@@ -87,7 +87,7 @@ bool looksLikeDiagram(std::string_view text) {
     return begins && text.size() > 2 && text.find_first_not_of("xo0123456789/ *abcd") == std::string_view::npos;
 }
 
-std::optional<PolytopeDesignOrError> diagramNamed(const PolytopeNameWords& text) {
+std::optional<PolytopeDesignOrError> designNamedByDiagram(const PolytopeNameWords& text) {
     const std::string diagram = text.joinedFrom(0);
     if (!looksLikeDiagram(diagram)) return {};
     return designFrom(parseDiagram(diagram));
@@ -99,7 +99,7 @@ constinit const PolytopeNotation kSchlaefliNotation{
     .polytopes = "a Schläfli symbol",
     .examples = "`{5,5/2,5}`, `t0,1{3,3,5}`, `{5}×{7}`, `tr{4,3}×{}`",
     .edges = "2",
-    .parse = schlaefliNamed,
+    .parse = designNamedBySchlaefli,
 };
 
 constinit const PolytopeNotation kDiagramNotation{
@@ -108,14 +108,14 @@ constinit const PolytopeNotation kDiagramNotation{
         "label branches, a blank separates unconnected parts, `*b` refers back to the second node",
     .examples = "`o5o3o3x`, `x3o3o *b3o`, `x5o x7o`, `x5/2o5o3o`",
     .edges = "2",
-    .parse = diagramNamed,
+    .parse = designNamedByDiagram,
 };
 
 constinit const PolytopeNotation kOperationNotation{
     .polytopes = "an operation on a regular polytope by any of its names",
     .examples = "`truncated tesseract`, `rectified hexacosichoron`",
     .edges = "2",
-    .parse = operationNamed,
+    .parse = designNamedByOperation,
 };
 
 std::vector<std::string> operationNames(const CoxeterDiagram& diagram) {

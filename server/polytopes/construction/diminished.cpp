@@ -21,7 +21,7 @@ namespace {
 
 constexpr std::uint32_t kRemoved = 0xffffffffU;
 
-Polytope sixHundredCell() {
+Polytope build600Cell() {
     const CoxeterDiagram diagram = CoxeterDiagram::linear({3, 1}, {3, 1}, {5, 1}, {true, false, false, false});
     return wythoffConstruction("600-cell", diagram, mirrorsOf(diagram));
 }
@@ -103,7 +103,7 @@ Polytope diminished(std::string name, const Polytope& whole, const std::vector<b
 Polytope buildSnub24Cell(std::string name) {
     // In the usual coordinates, scaled to the circumradius 2, the 600-cell has 24 vertices without irrational
     // coordinates: the permutations of (±2, 0, 0, 0) and all (±1, ±1, ±1, ±1). These vertices are those of a 24-cell.
-    const Polytope whole = sixHundredCell();
+    const Polytope whole = build600Cell();
     const double unit = whole.circumradius / 2;
     std::vector<bool> removed;
     for (const glm::dvec4& v : whole.vertices) {
@@ -119,7 +119,7 @@ Polytope buildGrandAntiprism(std::string name) {
     // 600-cell. The second decagon lies in the completely orthogonal plane. `part` is the length of a vertex's
     // projection onto the first plane, in circumradii. It is 1 for a vertex of the first decagon, and 0 for a vertex of
     // the second.
-    const Polytope whole = sixHundredCell();
+    const Polytope whole = build600Cell();
     const glm::dvec4 u = glm::normalize(whole.vertices[whole.edges[0][0]]);
     glm::dvec4 v = whole.vertices[whole.edges[0][1]];
     v = glm::normalize(v - u * glm::dot(u, v));
@@ -161,13 +161,13 @@ class Diminished600CellRecipe : public Recipe {
 }  // namespace
 
 // The 144 cells are 600 − 24 · 20 tetrahedra and 24 icosahedra.
-PolytopeDesign snub24Cell() {
+PolytopeDesign snub24CellDesign() {
     return {"snub 24-cell", std::make_shared<Diminished600CellRecipe>(ElementCounts{96, 432, 480, 144}, 576, "s3s4o3o",
                                                                       "s{3,4,3}", buildSnub24Cell)};
 }
 
 // The 320 cells are 20 antiprisms and 300 tetrahedra.
-PolytopeDesign grandAntiprism() {
+PolytopeDesign grandAntiprismDesign() {
     return {"grand antiprism", std::make_shared<Diminished600CellRecipe>(ElementCounts{100, 500, 720, 320}, 400, "", "",
                                                                          buildGrandAntiprism)};
 }

@@ -95,7 +95,7 @@ Polytope dualWithVertices(const Polytope& base, std::string name, std::vector<gl
     return makePolytope(std::move(name), std::move(vertices), std::move(faces), std::move(cells));
 }
 
-std::optional<CoxeterDiagram> regularDiagram(const PolytopeDesign& design) {
+std::optional<CoxeterDiagram> diagramIfRegular(const PolytopeDesign& design) {
     const auto read = parseDiagram(design.recipe->linearNotation());
     const auto* diagram = std::get_if<CoxeterDiagram>(&read);
     if (diagram == nullptr || componentsOf(*diagram).size() != 1) return {};
@@ -128,7 +128,7 @@ std::optional<PolytopeDesignOrError> dualNamed(const PolytopeNameWords& text) {
     const auto* base = std::get_if<PolytopeDesign>(&described);
     if (base == nullptr) return std::get<PolytopeNameError>(described);
     if (const auto* dual = dynamic_cast<const DualRecipe*>(base->recipe.get())) return dual->base();
-    if (auto regular = regularDiagram(*base)) {
+    if (auto regular = diagramIfRegular(*base)) {
         regular->ringed = {false, false, false, true};
         return designOf(*regular);
     }

@@ -23,6 +23,6 @@ Polytope dualWithVertices(const Polytope& base, std::string name, std::vector<gl
 
 /// Returns the diagram of a regular polytope: a chain whose only ringed mirror is the first one, with the branches in
 /// the order of the Schläfli symbol. Returns an empty optional for other polytopes.
-std::optional<CoxeterDiagram> regularDiagram(const PolytopeDesign& design);
+std::optional<CoxeterDiagram> diagramIfRegular(const PolytopeDesign& design);
 
 }  // namespace oval4d::polytopes

@@ -31,7 +31,7 @@ constexpr auto kWords =
 
 class PrismOrPyramidRecipe : public Recipe {
   public:
-    PrismOrPyramidRecipe(PrismOrPyramidKind over, const Solid& solid) : over_(over), solid_(solid) {}
+    PrismOrPyramidRecipe(PrismOrPyramidKind over, const SolidDescription& solid) : over_(over), solid_(solid) {}
 
     ElementCounts countElements() const override {
         const auto [v, e, f] = countsOf(solid_);
@@ -103,10 +103,10 @@ class PrismOrPyramidRecipe : public Recipe {
     }
 
     PrismOrPyramidKind over_;
-    Solid solid_;
+    SolidDescription solid_;
 };
 
-PolytopeDesign prismOrPyramidOver(PrismOrPyramidKind over, const Solid& solid) {
+PolytopeDesign prismOrPyramidOver(PrismOrPyramidKind over, const SolidDescription& solid) {
     const auto is = [&](std::string_view name) { return nameOf(solid) == name; };
     if (over == PrismOrPyramidKind::prism && !solid.dual) return uniformPrismOver(solid);
     if (over == PrismOrPyramidKind::pyramid && is("tetrahedron"))
@@ -139,7 +139,7 @@ std::optional<PolytopeDesignOrError> prismOrPyramidNamed(const PolytopeNameWords
             std::string(word->first) + " of cube");
     }
     if (const auto* error = std::get_if<PolytopeNameError>(&*solid)) return *error;
-    return prismOrPyramidOver(word->second, std::get<Solid>(*solid));
+    return prismOrPyramidOver(word->second, std::get<SolidDescription>(*solid));
 }
 
 }  // namespace

@@ -93,11 +93,11 @@ CoxeterDiagram prismDiagram(const NamedPolyhedron& base) {
 bool isSnub(const NamedPolyhedron& polyhedron) { return polyhedron.linearNotation.starts_with('s'); }
 
 // Builds a polyhedron that is a snub.
-PolyhedronWithOrbits buildSnub(const NamedPolyhedron& polyhedron) {
+PolyhedronWithFaceOrbits buildSnub(const NamedPolyhedron& polyhedron) {
     return snubOf({polyhedron.linearNotation[1] - '0', 1}, {polyhedron.linearNotation[3] - '0', 1});
 }
 
-PolyhedronSignature signatureOf(const PolyhedronWithOrbits& snub) {
+PolyhedronSignature signatureOf(const PolyhedronWithFaceOrbits& snub) {
     PolyhedronSignature shape;
     shape.vertices = static_cast<std::uint32_t>(snub.vertices.size());
     shape.circumradius = glm::length(snub.vertices[0]);

@@ -28,7 +28,7 @@ std::optional<PolytopeDesignOrError> duoprismNamed(const PolytopeNameWords& text
     }
     if (polygons->size() != 2)
         return PolytopeNameError::impossible("a duoprism is named after two polygons, as in 5,7-duoprism");
-    return duoprism((*polygons)[0], (*polygons)[1]);
+    return duoprismDesign((*polygons)[0], (*polygons)[1]);
 }
 
 // Parses the name of a prism over a uniform polyhedron: "pentagonal antiprism prism", "6-gonal prism prism", "snub cube
@@ -39,7 +39,7 @@ std::optional<PolytopeDesignOrError> prismNamed(const PolytopeNameWords& text) {
     const std::vector<std::string> words = text.withoutLast();
     const std::string base = text::joined(words, 0, words.size());
     for (const NamedPolyhedron& solid : namedPolyhedra()) {
-        if (base == solid.name || base == solid.adjective) return prismOf(solid);
+        if (base == solid.name || base == solid.adjective) return prismDesignOver(solid);
     }
     if (words.size() < 2) return {};
     const std::string_view last = words.back();
@@ -52,7 +52,7 @@ std::optional<PolytopeDesignOrError> prismNamed(const PolytopeNameWords& text) {
             antiprism ? "the polygon of an antiprism must have at least three sides and be no star"
                       : "the polygon of a prism must have at least three sides");
     }
-    return antiprism ? antiprismPrism(polygon->numerator) : duoprism(*polygon, {4, 1});
+    return antiprism ? antiprismPrismDesign(polygon->numerator) : duoprismDesign(*polygon, {4, 1});
 }
 
 // Parses the diagram of a prism over a snub polyhedron or an antiprism: "s4s3s x", "x s2s5s". Returns an empty optional
@@ -61,9 +61,10 @@ std::optional<PolytopeDesignOrError> snubPrismDiagramNamed(const PolytopeNameWor
     const std::string wanted = text::normalizedName(text.joinedFrom(0));
     for (const NamedPolyhedron& base : namedPolyhedra()) {
         const std::string own(base.linearNotation);
-        if (own.starts_with('s') && (wanted == own + "x" || wanted == "x" + own)) return prismOf(base);
+        if (own.starts_with('s') && (wanted == own + "x" || wanted == "x" + own)) return prismDesignOver(base);
     }
-    if (wanted == "s3s3sx" || wanted == "xs3s3s") return prismOf(namedPolyhedra()[4]);  // s3s3s is the icosahedron
+    if (wanted == "s3s3sx" || wanted == "xs3s3s")
+        return prismDesignOver(namedPolyhedra()[4]);  // s3s3s is the icosahedron
     for (const auto& [before, after] : {std::pair{"s2s", "sx"}, {"xs2s", "s"}}) {
         const std::string_view start(before);
         const std::string_view end(after);
@@ -71,7 +72,8 @@ std::optional<PolytopeDesignOrError> snubPrismDiagramNamed(const PolytopeNameWor
             continue;
         const auto polygon =
             parseBranch(std::string_view(wanted).substr(start.size(), wanted.size() - start.size() - end.size()));
-        if (polygon && polygon->denominator == 1 && polygon->numerator > 2) return antiprismPrism(polygon->numerator);
+        if (polygon && polygon->denominator == 1 && polygon->numerator > 2)
+            return antiprismPrismDesign(polygon->numerator);
     }
     return {};
 }

@@ -14,7 +14,7 @@
 
 namespace oval4d::polytopes {
 
-Polytope prismOver(std::string name, const PolyhedronWithOrbits& base) {
+Polytope prismOver(std::string name, const PolyhedronWithFaceOrbits& base) {
     const auto n = static_cast<std::uint32_t>(base.vertices.size());
     const auto m = static_cast<std::uint32_t>(base.faces.size());
     std::vector<glm::dvec4> vertices;

@@ -9,7 +9,7 @@
 namespace oval4d::polytopes {
 
 /// Builds the prism over a polyhedron, from w = −1 to w = 1. The two cells that are copies of the polyhedron have one
-/// cell type; the other cells have one type for each orbit of faces (see PolyhedronWithOrbits::orbits).
-Polytope prismOver(std::string name, const PolyhedronWithOrbits& base);
+/// cell type; the other cells have one type for each orbit of faces (see PolyhedronWithFaceOrbits::orbits).
+Polytope prismOver(std::string name, const PolyhedronWithFaceOrbits& base);
 
 }  // namespace oval4d::polytopes

@@ -63,7 +63,7 @@ glm::dvec3 equidistantPoint(const TriangleGroupGenerators& generators, DiagramBr
 
 }  // namespace
 
-PolyhedronWithOrbits snubOf(DiagramBranch p, DiagramBranch q) {
+PolyhedronWithFaceOrbits snubOf(DiagramBranch p, DiagramBranch q) {
     const TriangleGroupGenerators generators = generatorsOf(p, q);
     const glm::dvec3 seed = equidistantPoint(generators, p);
     // The vertices are g · seed for all rotations g of the group. For each vertex g · seed, `next` holds the indices of
@@ -82,7 +82,7 @@ PolyhedronWithOrbits snubOf(DiagramBranch p, DiagramBranch q) {
             next.back().at(k) = number;
         }
     }
-    PolyhedronWithOrbits snub;
+    PolyhedronWithFaceOrbits snub;
     snub.vertices.assign(points.begin(), points.end());
     const auto addFace = [&](const std::vector<std::uint32_t>& loop, std::uint32_t orbit) {
         snub.faces.add(loop);

@@ -13,7 +13,7 @@ namespace oval4d::polytopes {
 
 /// A polyhedron whose faces are grouped into orbits of its symmetry group. snubOf() returns a snub polyhedron in this
 /// form; prismOver() accepts any polyhedron in this form.
-struct PolyhedronWithOrbits {
+struct PolyhedronWithFaceOrbits {
     std::vector<glm::dvec3> vertices;
     geometry::JaggedArray faces;        ///< the vertex loop of each face
     std::vector<std::uint32_t> orbits;  ///< the orbit of each face; in a snub of {p, q}: 0 for the p-gons, 1 for the
@@ -24,6 +24,6 @@ struct PolyhedronWithOrbits {
 /// n-antiprism for {n, 2}. The vertices are the images of one point under the rotation group of {p, q}. The faces are
 /// the p-gons and q-gons around the rotation axes (none around a twofold axis), and the triangles between them
 /// (Coxeter, Regular Polytopes, §8.6). The caller must ensure that p and q are integers with 1/p + 1/q > 1/2.
-PolyhedronWithOrbits snubOf(DiagramBranch p, DiagramBranch q);
+PolyhedronWithFaceOrbits snubOf(DiagramBranch p, DiagramBranch q);
 
 }  // namespace oval4d::polytopes

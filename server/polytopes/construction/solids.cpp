@@ -53,17 +53,18 @@ const NamedPolyhedron* polyhedronCalled(std::string_view name) {
 
 // Returns one canonical value for all descriptions of the same solid. For example, the square prism is the cube, the
 // triangular antiprism is the octahedron, and the dual of a Platonic solid is a Platonic solid.
-Solid canonical(Solid solid) {
+SolidDescription canonical(SolidDescription solid) {
     if (solid.named == nullptr && !solid.antiprism && solid.sides == 4)
         solid = {polyhedronCalled("cube"), 0, false, solid.dual};
     if (solid.named == nullptr && solid.antiprism && solid.sides == 3)
         solid = {polyhedronCalled("octahedron"), 0, false, solid.dual};
     if (solid.named == nullptr || !solid.dual) return solid;
     const NamedPolyhedron* const other = polyhedronCalled(dualName(solid.named->name));
-    return other == nullptr ? solid : Solid{other};
+    return other == nullptr ? solid : SolidDescription{other};
 }
 
-// A family of solids over polygons: the last word of their names, and the values of Solid::antiprism and Solid::dual.
+// A family of solids over polygons: the last word of their names, and the values of SolidDescription::antiprism and
+// SolidDescription::dual.
 struct SolidFamily {
     std::string_view word;
     bool antiprism, dual;
@@ -159,8 +160,8 @@ SolidMesh dualOf(const SolidMesh& base) {
 
 }  // namespace
 
-std::optional<std::variant<Solid, PolytopeNameError>> solidNamed(const std::vector<std::string>& words) {
-    using SolidOrError = std::variant<Solid, PolytopeNameError>;
+std::optional<std::variant<SolidDescription, PolytopeNameError>> solidNamed(const std::vector<std::string>& words) {
+    using SolidOrError = std::variant<SolidDescription, PolytopeNameError>;
     std::size_t first = 0;
     bool dual = false;
     while (first + 1 < words.size() && words[first] == "dual") {
@@ -194,7 +195,7 @@ std::optional<std::variant<Solid, PolytopeNameError>> solidNamed(const std::vect
     return {};
 }
 
-std::string nameOf(const Solid& solid) {
+std::string nameOf(const SolidDescription& solid) {
     if (solid.named != nullptr) return std::string(solid.dual ? dualName(solid.named->name) : solid.named->name);
     const auto family = std::ranges::find_if(kPolygonFamilies, [&](const SolidFamily& each) {
         return each.antiprism == solid.antiprism && each.dual == solid.dual;
@@ -202,7 +203,7 @@ std::string nameOf(const Solid& solid) {
     return adjectiveOf({solid.sides, 1}) + " " + std::string(family->word);
 }
 
-SolidCounts countsOf(const Solid& solid) {
+SolidCounts countsOf(const SolidDescription& solid) {
     // The prism over a polyhedron with v vertices, e edges and f faces has 2v vertices, 2e + v edges and f + 2 cells.
     const ElementCounts prism = uniformPrismOver({solid.named, solid.sides, solid.antiprism}).recipe->countElements();
     const std::uint64_t vertices = prism.vertices / 2;
@@ -210,18 +211,18 @@ SolidCounts countsOf(const Solid& solid) {
     return solid.dual ? SolidCounts{own.faces, own.edges, own.vertices} : own;
 }
 
-SolidMesh meshOf(const Solid& solid) {
+SolidMesh meshOf(const SolidDescription& solid) {
     if (solid.dual) return dualOf(meshOf({solid.named, solid.sides, solid.antiprism}));
     if (solid.named == nullptr && !solid.antiprism) return prismMesh(solid.sides);
     if (solid.named != nullptr && !solid.named->linearNotation.starts_with('s')) return polyhedronMeshOf(*solid.named);
     const auto digit = [&](std::size_t i) { return DiagramBranch{solid.named->linearNotation[i] - '0', 1}; };
-    PolyhedronWithOrbits snub = solid.antiprism ? snubOf({solid.sides, 1}, {2, 1}) : snubOf(digit(1), digit(3));
+    PolyhedronWithFaceOrbits snub = solid.antiprism ? snubOf({solid.sides, 1}, {2, 1}) : snubOf(digit(1), digit(3));
     return {std::move(snub.vertices), std::move(snub.faces)};
 }
 
-PolytopeDesign uniformPrismOver(const Solid& solid) {
-    if (solid.named != nullptr) return prismOf(*solid.named);
-    return solid.antiprism ? antiprismPrism(solid.sides) : duoprism({solid.sides, 1}, {4, 1});
+PolytopeDesign uniformPrismOver(const SolidDescription& solid) {
+    if (solid.named != nullptr) return prismDesignOver(*solid.named);
+    return solid.antiprism ? antiprismPrismDesign(solid.sides) : duoprismDesign({solid.sides, 1}, {4, 1});
 }
 
 }  // namespace oval4d::polytopes

@@ -23,13 +23,13 @@ struct SolidCounts {
 
 /// A convex uniform polyhedron of edge length 2 or, if `dual` is set, the dual of such a polyhedron, with the same
 /// circumradius.
-struct Solid {
+struct SolidDescription {
     const NamedPolyhedron* named = nullptr;  ///< a Platonic or Archimedean solid; null for a prism or antiprism
     int sides = 0;                           ///< the number of sides of the base of a prism or antiprism; else 0
     bool antiprism = false;
     bool dual = false;
 
-    bool operator==(const Solid&) const = default;
+    bool operator==(const SolidDescription&) const = default;
 };
 
 /// Returns the solid that the words name, such as "truncated cube", "5 gonal prism", "pentagonal antiprism", "dual of
@@ -37,12 +37,12 @@ struct Solid {
 /// in lower case. Returns an error if the words name a star, or a solid over a polygon of fewer than three sides.
 /// Returns an empty optional if the words name no polyhedron. All names of a solid give equal values: "dual of cube"
 /// gives the value of "octahedron".
-std::optional<std::variant<Solid, PolytopeNameError>> solidNamed(const std::vector<std::string>& words);
+std::optional<std::variant<SolidDescription, PolytopeNameError>> solidNamed(const std::vector<std::string>& words);
 
 /// Returns the name of the solid, such as "truncated cube", "pentagonal prism" or "rhombic dodecahedron".
-std::string nameOf(const Solid& solid);
+std::string nameOf(const SolidDescription& solid);
 
-SolidCounts countsOf(const Solid& solid);
+SolidCounts countsOf(const SolidDescription& solid);
 
 /// The vertices and faces of a polyhedron.
 struct SolidMesh {
@@ -50,10 +50,10 @@ struct SolidMesh {
     geometry::JaggedArray faces;       ///< the vertex loop of each face; the directions of the loops are arbitrary
 };
 
-/// Builds the mesh of a solid, with the edge length or circumradius that the comment of Solid states.
-SolidMesh meshOf(const Solid& solid);
+/// Builds the mesh of a solid, with the edge length or circumradius that the comment of SolidDescription states.
+SolidMesh meshOf(const SolidDescription& solid);
 
 /// Returns the design of the uniform prism over a solid. The caller must ensure that `solid` is not a dual.
-PolytopeDesign uniformPrismOver(const Solid& solid);
+PolytopeDesign uniformPrismOver(const SolidDescription& solid);
 
 }  // namespace oval4d::polytopes

@@ -78,7 +78,7 @@ std::optional<PolytopeDesignOrError> truncationOrRectificationNamed(const Polyto
     const PolytopeDesignOrError described = text.lookup(text.joinedFrom(2));
     const auto* base = std::get_if<PolytopeDesign>(&described);
     if (base == nullptr) return described;
-    if (auto regular = regularDiagram(*base); regular && isConvex(*regular)) {
+    if (auto regular = diagramIfRegular(*base); regular && isConvex(*regular)) {
         const bool triangles = regular->branches[0][1] == DiagramBranch{3, 1};
         regular->ringed = {truncation, true, false, false};
         if (triangles || !truncation) return designOf(*regular);

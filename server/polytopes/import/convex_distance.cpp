@@ -26,7 +26,7 @@ struct WeightedVertex {
 
 // Finds the point nearest to the origin in the affine hull of the vertices, and writes its barycentric coordinates to
 // `weights`. Returns false if the vertices are affinely dependent.
-bool nearestWeights(const std::vector<WeightedVertex>& vertices, std::array<double, 5>& weights) {
+bool weightsOfPointNearestOrigin(const std::vector<WeightedVertex>& vertices, std::array<double, 5>& weights) {
     const std::size_t n = vertices.size() - 1;
     std::array<std::array<double, 5>, 4> rows{};  // the matrix and the right side of the normal equations
     const glm::dvec4& base = vertices[0].position;
@@ -66,7 +66,7 @@ glm::dvec4 weightedSum(const std::vector<WeightedVertex>& vertices) {
 // Removes the vertices whose weight becomes 0. Returns false if the vertices become affinely dependent.
 bool moveToPointNearestOrigin(std::vector<WeightedVertex>& vertices) {
     std::array<double, 5> goal{};
-    while (nearestWeights(vertices, goal)) {
+    while (weightsOfPointNearestOrigin(vertices, goal)) {
         double step = 1;
         std::size_t least = vertices.size();
         for (std::size_t i = 0; i < vertices.size(); ++i) {

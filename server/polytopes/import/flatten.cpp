@@ -118,9 +118,9 @@ class Flattener {
         const double rounding = doublePrecisionErrorBound(soup.vertices);
         maxDeviation_ = std::max(kMaxDeviation * size, kMaxRounding * rounding);
         goalDeviation_ = std::max(kGoalDeviation * size, kGoalRounding * rounding);
-        collectCells();
+        addCellConstraints();
         fitHyperplanes();
-        collectFaces();
+        addFaceConstraints();
         fitHyperplanes();
     }
 
@@ -169,7 +169,7 @@ class Flattener {
         corners_.add(corners);
     }
 
-    void collectCells() {
+    void addCellConstraints() {
         constraintOfCell_.assign(soup_.cells.size(), kNone);
         std::vector<std::uint32_t> corners;
         for (std::uint32_t c = 0; c < soup_.cells.size(); ++c) {
@@ -185,7 +185,7 @@ class Flattener {
     }
 
     // Adds a constraint for each 2-face between two cells whose hyperplanes are nearly parallel.
-    void collectFaces() {
+    void addFaceConstraints() {
         std::vector<std::array<std::uint32_t, 2>> cellsOf(soup_.faces.size(), {kNone, kNone});
         for (std::uint32_t c = 0; c < soup_.cells.size(); ++c) {
             for (const std::uint32_t f : soup_.cells[c]) cellsOf[f].at(cellsOf[f][0] == kNone ? 0 : 1) = c;

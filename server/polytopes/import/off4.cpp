@@ -207,7 +207,7 @@ PolygonSoup readRecords(Tokenizer file, const Off4Header& header, const Off4Reco
 // If the file has as many lines as records, returns the fault of the first record whose line has too few words.
 // Otherwise returns an empty optional. Without this function, the error would name a later record: a reader that
 // ignores line breaks completes the short record with words of the next line. `file` must stand after the header.
-std::optional<FileError> shortRecordOf(Tokenizer file, const Off4Header& header) {
+std::optional<FileError> firstShortRecordFault(Tokenizer file, const Off4Header& header) {
     const std::size_t records = std::size_t{header.vertices} + header.faces + header.cells;
     Tokenizer counted = file;
     if (!counted.nextWordOnLine().empty()) return {};
@@ -240,7 +240,7 @@ Off4Contents readOff4(std::string_view text, std::size_t maxVertices) {
                 header.edges,
                 {}};
     } catch (const FileError&) {
-        const auto shortRecord = shortRecordOf(file, header);
+        const auto shortRecord = firstShortRecordFault(file, header);
         for (const Off4RecordLayout vertices : {Off4RecordLayout::continuous, Off4RecordLayout::lines}) {
             for (const Off4RecordLayout faces : {Off4RecordLayout::lines, Off4RecordLayout::continuous}) {
                 for (const Off4RecordLayout cells : {Off4RecordLayout::lines, Off4RecordLayout::continuous}) {

@@ -21,7 +21,7 @@ namespace {
 using geometry::kNone;
 
 // Returns the boundary loop of triangles that form a disk. Returns an empty list if they do not form a disk.
-std::vector<std::uint32_t> boundaryOf(std::span<const std::uint32_t> group, std::span<const Triangle> all) {
+std::vector<std::uint32_t> boundaryLoopOf(std::span<const std::uint32_t> group, std::span<const Triangle> all) {
     std::vector<Triangle> triangles;
     std::vector<std::uint32_t> corners;
     for (const std::uint32_t t : group) {
@@ -140,7 +140,7 @@ void addMergedPolygons(std::span<const Triangle> triangles, std::span<const glm:
         const auto collectIn = [&](const PlaneThroughPoints& flat) { return collect(seed, flat); };
         auto group = growAndRefit(plane, triangles[seed], collectIn, cornersOf, points, frame);
         std::vector<std::uint32_t> loop;
-        if (group.size() > 1) loop = boundaryOf(group, triangles);
+        if (group.size() > 1) loop = boundaryLoopOf(group, triangles);
         if (loop.empty() || !isConvex(loop, plane, points, frame)) {
             group = {seed};
             loop.assign(triangles[seed].begin(), triangles[seed].end());

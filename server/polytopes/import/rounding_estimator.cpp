@@ -29,7 +29,7 @@ struct NumberPrecision {
     bool whole = true;
 };
 
-NumberPrecision digitsOf(std::string_view word) {
+NumberPrecision numberPrecisionOf(std::string_view word) {
     NumberPrecision result;
     bool decimals = false;
     int zeros = 0;  // the number of zeros at the end
@@ -54,14 +54,14 @@ NumberPrecision digitsOf(std::string_view word) {
 }
 
 // Returns the distance between neighboring single-precision numbers near `value`.
-double singleSpacing(double value) {
+double float32SpacingAt(double value) {
     return std::ldexp(1.0, std::max(std::ilogb(value) + 1 - kSingleBits, kMinSingleExponent));
 }
 
 }  // namespace
 
 void RoundingEstimator::add(std::string_view word, int axis, double value) {
-    const NumberPrecision digits = digitsOf(word);
+    const NumberPrecision digits = numberPrecisionOf(word);
     largest_[axis] = std::max(largest_[axis], std::abs(value));
     whole_ = whole_ && digits.whole;
     if (digits.significant == 0) return;  // the digits of 0 do not show how it was rounded
@@ -78,7 +78,7 @@ void RoundingEstimator::updateFloat32Evidence(int lastPlace, int lastNonzeroPlac
     // the distance of neighboring decimals, divided by the distance of neighboring single-precision numbers. The last
     // place is that of the last digit other than 0. A number such as 0.50000000 is also a short decimal, so it is weak
     // evidence.
-    const double part = std::pow(10.0, lastNonzeroPlace) / singleSpacing(value);
+    const double part = std::pow(10.0, lastNonzeroPlace) / float32SpacingAt(value);
     if (part < 1) singleEvidence_ -= std::log2(part);
 }
 

@@ -56,8 +56,8 @@ void addLabel(const scene::SlicePlacement& placement, const glm::dmat4& toView, 
 
 /// Adds `quantity`, a text that says what the values of a field measure, in the upper left corner of the histogram. A
 /// plate behind the text keeps it legible. Does nothing if the text is wider than the histogram.
-void addQuantity(const std::string& quantity, const PixelRect& histogram, int size, const scene::PictureStyle& style,
-                 Overlay& overlay) {
+void addQuantityText(const std::string& quantity, const PixelRect& histogram, int size,
+                     const scene::PictureStyle& style, Overlay& overlay) {
     const auto digits = static_cast<float>(overlay.font().digitHeight(size));
     const auto width = static_cast<float>(overlay.font().width(size, quantity));
     const float margin = std::round(0.5F * digits);
@@ -105,7 +105,7 @@ void addHistogramAxes(const scene::Scene& scene, Overlay& overlay) {
         overlay.text(left + width / 2, bottom - 1.4F * digits, size,
                      std::string_view(label).substr(0, fits ? label.size() : 1), color);
     }
-    addQuantity(scene.histogram.quantity, {leftOf(0), bottom, leftOf(3) + width, top}, size, style, overlay);
+    addQuantityText(scene.histogram.quantity, {leftOf(0), bottom, leftOf(3) + width, top}, size, style, overlay);
 }
 
 /// Adds what is drawn over the density strip: the axes with their names, the lines of the vertices of the highlighted
@@ -161,7 +161,7 @@ void addStripAxesAndLines(const scene::Scene& scene, Overlay& overlay, ShapeBatc
 
 }  // namespace
 
-void addAxes(const scene::Scene& scene, ShapeBatch& shapes, Overlay& overlay) {
+void addAxesSymbol(const scene::Scene& scene, ShapeBatch& shapes, Overlay& overlay) {
     // The symbol of the axes has its own projection. Its view axis meets the origin of the axes. Its eye is so far away
     // that the projection is nearly parallel. The unit of the following lengths is the length of an axis.
     constexpr float kFar = 16, kBar = 0.045f, kBall = 0.10f, kTip = 0.065f, kName = 1.28f;

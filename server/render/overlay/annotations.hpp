@@ -10,7 +10,7 @@ namespace oval4d::render {
 
 /// Adds the symbol of the x, y and z axes, as the camera sees them, to `shapes`, and the names of the axes to
 /// `overlay`. The place of the symbol is Scene::axes.
-void addAxes(const scene::Scene& scene, ShapeBatch& shapes, Overlay& overlay);
+void addAxesSymbol(const scene::Scene& scene, ShapeBatch& shapes, Overlay& overlay);
 
 /// Adds the labels of the slices to `overlay`. A label shows the value of w of its slice. The label of the focus slice
 /// (the middle one) is highlighted, and is added after the others.
@@ -25,9 +25,9 @@ struct StrokeTargets {
 };
 
 /// Adds the parallel coordinates of the rotated vertices along the lower edge of the picture. If a density strip or the
-/// histogram of a field is shown instead, ParallelCoordinatesPlot draws it; this function then adds only axes and marks
-/// and, over a density strip, the lines of the highlighted element. Does nothing if the scene shows neither lines nor a
-/// strip nor a histogram.
+/// histogram of a field is shown instead, DensityStripOrHistogramPainter draws it; this function then adds only axes
+/// and marks and, over a density strip, the lines of the highlighted element. Does nothing if the scene shows neither
+/// lines nor a strip nor a histogram.
 ///
 /// Adds to `strokes` what marks the vertices of the highlighted element. For parallel coordinates, these are the bands
 /// behind the lines of the vertices, and the lines of zero behind the bands. Over a density strip, these are the lines

@@ -34,7 +34,7 @@ void main() { pixel = vec4(color, 1.0) * texture(density, texel).r; }
 
 }  // namespace
 
-ParallelCoordinatesPlot::ParallelCoordinatesPlot()
+DensityStripOrHistogramPainter::DensityStripOrHistogramPainter()
     : program_(kVertexSource, kFragmentSource, sizeof(PlotVertex),
                std::to_array<VertexAttribute>({{2, GL_FLOAT, offsetof(PlotVertex, at)},
                                                {2, GL_FLOAT, offsetof(PlotVertex, texel)},
@@ -47,12 +47,12 @@ ParallelCoordinatesPlot::ParallelCoordinatesPlot()
         glTexParameteri(GL_TEXTURE_2D, filter, GL_LINEAR);
 }
 
-ParallelCoordinatesPlot::~ParallelCoordinatesPlot() { glDeleteTextures(1, &texture_); }
+DensityStripOrHistogramPainter::~DensityStripOrHistogramPainter() { glDeleteTextures(1, &texture_); }
 
-void ParallelCoordinatesPlot::draw(const scene::Scene& scene) {
+void DensityStripOrHistogramPainter::drawStripOrHistogram(const scene::Scene& scene) {
     using scene::DensityPlot, slicing::CoordinateValueHistograms;
     const bool showsHistogram = scene.showsHistogram();
-    if (!showsHistogram && !scene.showsDensity()) return;
+    if (!showsHistogram && !scene.showsDensityStrip()) return;
     uploadTones(scene.plotTones, showsHistogram ? CoordinateValueHistograms::kColumns : DensityPlot::kColumns);
     corners_.clear();
     indices_.clear();
@@ -73,7 +73,7 @@ void ParallelCoordinatesPlot::draw(const scene::Scene& scene) {
     program_.draw(corners_.data(), corners_.size(), indices_);
 }
 
-void ParallelCoordinatesPlot::uploadTones(const std::vector<std::uint8_t>& tones, int columns) {
+void DensityStripOrHistogramPainter::uploadTones(const std::vector<std::uint8_t>& tones, int columns) {
     const int rows = static_cast<int>(tones.size()) / columns;
     glBindTexture(GL_TEXTURE_2D, texture_);
     glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
@@ -88,7 +88,8 @@ void ParallelCoordinatesPlot::uploadTones(const std::vector<std::uint8_t>& tones
 
 // Adds the two ends of a vertical side of a quadrilateral, at x (in viewport heights from the left). The side shows the
 // center of column `column` of the texture: from the last row at the lower end to the first row at the upper end.
-void ParallelCoordinatesPlot::addVerticalSide(const scene::Scene& scene, double x, double column, scene::Color color) {
+void DensityStripOrHistogramPainter::addVerticalSide(const scene::Scene& scene, double x, double column,
+                                                     scene::Color color) {
     const double aspect = static_cast<double>(scene.viewport.width) / scene.viewport.height;
     for (const bool above : {false, true}) {
         const double y = scene.coordinates.zero + (above ? 1 : -1) * scene.coordinates.amplitude;
@@ -98,7 +99,7 @@ void ParallelCoordinatesPlot::addVerticalSide(const scene::Scene& scene, double 
 }
 
 // Adds the quadrilateral between the last two sides that addVerticalSide() has added.
-void ParallelCoordinatesPlot::addQuadBetweenLastSides() {
+void DensityStripOrHistogramPainter::addQuadBetweenLastSides() {
     const auto first = static_cast<std::uint32_t>(corners_.size()) - 4;
     for (const std::uint32_t corner : {0U, 2U, 1U, 1U, 2U, 3U}) indices_.push_back(first + corner);
 }

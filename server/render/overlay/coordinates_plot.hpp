@@ -15,15 +15,15 @@ namespace oval4d::render {
 /// Draws the density strip or the histogram of a scene, as textures. The colors of a strip are interpolated between the
 /// colors of the axes. Each panel of a histogram has the color of its axis. Requires a current GL context throughout
 /// its lifetime.
-class ParallelCoordinatesPlot {
+class DensityStripOrHistogramPainter {
   public:
-    ParallelCoordinatesPlot();
-    ~ParallelCoordinatesPlot();
-    ParallelCoordinatesPlot(const ParallelCoordinatesPlot&) = delete;
-    ParallelCoordinatesPlot& operator=(const ParallelCoordinatesPlot&) = delete;
+    DensityStripOrHistogramPainter();
+    ~DensityStripOrHistogramPainter();
+    DensityStripOrHistogramPainter(const DensityStripOrHistogramPainter&) = delete;
+    DensityStripOrHistogramPainter& operator=(const DensityStripOrHistogramPainter&) = delete;
 
     /// Draws the density strip or the histogram. Does nothing if the scene shows neither.
-    void draw(const scene::Scene& scene);
+    void drawStripOrHistogram(const scene::Scene& scene);
 
   private:
     struct PlotVertex {

@@ -62,10 +62,10 @@ const Glyph& Font::glyph(int size, char32_t character) {
     size = std::clamp(size, 1, kMaxSize);
     const auto key = std::pair(size, character);
     const auto found = glyphs_.find(key);
-    return found != glyphs_.end() ? found->second : glyphs_.emplace(key, draw(size, character)).first->second;
+    return found != glyphs_.end() ? found->second : glyphs_.emplace(key, renderGlyph(size, character)).first->second;
 }
 
-Glyph Font::draw(int size, char32_t character) {
+Glyph Font::renderGlyph(int size, char32_t character) {
     if (size != face_->size) {
         FT_Set_Pixel_Sizes(face_->face, 0, static_cast<FT_UInt>(size));
         face_->size = size;
@@ -129,7 +129,7 @@ char32_t Font::takeCharacter(std::string_view& text) {
     return character;
 }
 
-void Font::bind() {
+void Font::bindTexture() {
     glBindTexture(GL_TEXTURE_2D, texture_);
     if (!changed_) return;
     glPixelStorei(GL_UNPACK_ALIGNMENT, 1);

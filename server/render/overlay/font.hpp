@@ -49,7 +49,7 @@ class Font {
     void clearIfLarge();
 
     /// Binds the texture to the active texture unit. Uploads the texture if there are new glyphs.
-    void bind();
+    void bindTexture();
 
     /// Calls `each(glyph, pen)` for every character of the UTF-8 text `text`. `pen` is the x position of the character,
     /// in pixels from the start of the line.
@@ -65,7 +65,7 @@ class Font {
 
   private:
     static char32_t takeCharacter(std::string_view& text);
-    Glyph draw(int size, char32_t character);
+    Glyph renderGlyph(int size, char32_t character);
     std::pair<int, int> reserveInAtlas(int width, int height);
     void clear();
 

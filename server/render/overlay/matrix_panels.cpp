@@ -123,7 +123,7 @@ class SectionPanelPainter {
 
     void paintEdges(std::size_t section) const {
         const PlanarSection& from = scene_.sectionMatrix.sections[section];
-        const scene::SectionMatrix::SectionStyle& styles = scene_.sectionMatrix.styles[section];
+        const scene::SectionMatrix::SectionElementLooks& styles = scene_.sectionMatrix.styles[section];
         const float width = lineWidth();
         for (std::size_t e = 0; e < from.edges.size(); ++e) {
             const double opacity = slicing::opacityOf(styles.edges[e]);
@@ -135,7 +135,7 @@ class SectionPanelPainter {
 
     void paintPoints(std::size_t section) const {
         const PlanarSection& from = scene_.sectionMatrix.sections[section];
-        const scene::SectionMatrix::SectionStyle& styles = scene_.sectionMatrix.styles[section];
+        const scene::SectionMatrix::SectionElementLooks& styles = scene_.sectionMatrix.styles[section];
         const scene::PictureStyle& style = scene_.style();
         const bool isCloud = !from.ballScale.empty();
         for (std::size_t i = 0; i < points_.size(); ++i) {
@@ -159,10 +159,10 @@ class SectionPanelPainter {
 
 // Marks the focus point in the focus slice (the middle one) by lines through the point along the axes x, y and z.
 // Leaves out a line that has an end behind the eye.
-void addFocusPoint(const scene::Scene& scene, const scene::SlicePlacement& placement, Overlay& overlay) {
+void addFocusPointLines(const scene::Scene& scene, const scene::SlicePlacement& placement, Overlay& overlay) {
     const ViewProjection projection = ViewProjection::fromCamera(scene.camera, scene.viewport);
     const auto width = static_cast<float>(std::max(1.0, kFocusWidth * scene.viewport.height));
-    const std::array<scene::ViewSegment, 3> lines = scene::focusLines(scene, placement);
+    const std::array<scene::ViewSegment, 3> lines = scene::focusPointSegments(scene, placement);
     for (std::size_t axis = 0; axis < 3; ++axis) {
         const glm::vec3 from(lines.at(axis)[0]), to(lines.at(axis)[1]);
         if (from.z >= 0 || to.z >= 0) continue;
@@ -175,7 +175,7 @@ void addFocusPoint(const scene::Scene& scene, const scene::SlicePlacement& place
 void addMatrixAndFocusLines(const scene::Scene& scene, Overlay& overlay) {
     if (!scene.matrix.shown) return;
     for (const scene::SlicePlacement& placement : scene.placements)
-        if (placement.focus) addFocusPoint(scene, placement, overlay);
+        if (placement.focus) addFocusPointLines(scene, placement, overlay);
     SectionPanelPainter painter(scene, overlay);
     for (int axis = 0; axis < 4; ++axis) painter.paintAxisName(axis);
     for (std::size_t i = 0; i < scene.sectionMatrix.sections.size(); ++i) {

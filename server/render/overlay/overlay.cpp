@@ -132,7 +132,7 @@ void Overlay::text(float x, float y, int size, std::string_view text, scene::Col
 
 void Overlay::draw() {
     if (indices_.empty()) return;
-    font_.bind();
+    font_.bindTexture();
     program_.draw(vertices_.data(), vertices_.size(), indices_);
 }
 

@@ -209,7 +209,7 @@ OVAL4D_AVX2 inline void fillPixels(const PatchCanvas& canvas, const PatchShading
 // Draws a patch (a flat polygon). Draws two rows at a time if both have at most four pixels of the patch, as do most
 // rows of thin bars; otherwise draws one row at a time.
 template <Form form, DepthUse depth>
-OVAL4D_AVX2 void fillShape(const PatchCanvas& canvas, const RowRange& rows, const PatchShading& paint) {
+OVAL4D_AVX2 void fillPatch(const PatchCanvas& canvas, const RowRange& rows, const PatchShading& paint) {
     constexpr int kHalf = kLanes / 2;
     const __m256i inHalf = _mm256_setr_epi32(0, 1, 2, 3, 0, 1, 2, 3);
     const auto isNarrow = [&](int y) { return canvas.right[y] - canvas.left[y] <= kHalf; };
@@ -350,10 +350,11 @@ OVAL4D_AVX2 LinearFunction nearnessPlaneOf(std::span<const PatchCorner> corners,
 }
 
 template <Form form>
-OVAL4D_AVX2 void fill(const PatchCanvas& canvas, const RowRange& rows, const PatchShading& paint, DepthUse depth) {
-    if (depth == DepthUse::unused) return fillShape<form, DepthUse::unused>(canvas, rows, paint);
-    if (depth == DepthUse::tested) return fillShape<form, DepthUse::tested>(canvas, rows, paint);
-    fillShape<form, DepthUse::written>(canvas, rows, paint);
+OVAL4D_AVX2 void fillPatchWithDepthUse(const PatchCanvas& canvas, const RowRange& rows, const PatchShading& paint,
+                                       DepthUse depth) {
+    if (depth == DepthUse::unused) return fillPatch<form, DepthUse::unused>(canvas, rows, paint);
+    if (depth == DepthUse::tested) return fillPatch<form, DepthUse::tested>(canvas, rows, paint);
+    fillPatch<form, DepthUse::written>(canvas, rows, paint);
 }
 
 OVAL4D_AVX2 PatchShading shadingOf(const ShapeVertex& look, float pixelSize) {
@@ -382,7 +383,7 @@ OVAL4D_AVX2 void drawFace(const PatchCanvas& canvas, std::span<const PatchCorner
     paint.nearness = nearnessPlaneOf(corners, area);
     if (depth == DepthUse::tested) return fillFace<DepthUse::tested>(canvas, rows, paint);
     paint.bulge = 0;
-    fillShape<Form::face, DepthUse::written>(canvas, rows, paint);
+    fillPatch<Form::face, DepthUse::written>(canvas, rows, paint);
 }
 
 // Draws a patch (a flat polygon) of any form except Form::face. The patch must be a triangle, or a parallelogram to
@@ -409,12 +410,12 @@ OVAL4D_AVX2 void drawQuad(const PatchCanvas& canvas, std::span<const PatchCorner
     if (depth != DepthUse::unused) paint.nearness = functionOf(a.nearness, b.nearness, c.nearness, d.nearness);
     if (form == Form::rim) {
         paint.halfRadius = functionOf(a.place.z, b.place.z, c.place.z, d.place.z);
-        return fill<Form::rim>(canvas, rows, paint, depth);
+        return fillPatchWithDepthUse<Form::rim>(canvas, rows, paint, depth);
     }
     paint.u = functionOf(a.place.x, b.place.x, c.place.x, d.place.x);
-    if (form == Form::strip) return fill<Form::strip>(canvas, rows, paint, depth);
+    if (form == Form::strip) return fillPatchWithDepthUse<Form::strip>(canvas, rows, paint, depth);
     paint.v = functionOf(a.place.y, b.place.y, c.place.y, d.place.y);
-    fill<Form::disk>(canvas, rows, paint, depth);
+    fillPatchWithDepthUse<Form::disk>(canvas, rows, paint, depth);
 }
 
 }  // namespace

@@ -63,7 +63,7 @@ struct ShapeRasterizer::Impl {
         std::vector<PatchCorner> corners;
     };
 
-    int middleRow() const;
+    int meanRowOfShapes() const;
     void drawRows(const RowRange& rows, Workspace& workspace) const;
     void clearDepth(const RowRange& rows, const PixelArea& area) const;
     void drawPatches(const PatchCanvas& part, const AddedShapes& layer, Workspace& workspace) const;
@@ -128,7 +128,7 @@ void ShapeRasterizer::drawAdded(parallel::ForkJoin* forkJoin) {
     Impl& m = *impl_;
     const int height = m.canvas.height;
     if (forkJoin == nullptr) return m.drawRows({0, height}, m.workspaces[0]);
-    const int middle = m.middleRow();
+    const int middle = m.meanRowOfShapes();
     const auto drawLower = [&] { m.drawRows({0, middle}, m.workspaces[0]); };
     const auto drawUpper = [&] { m.drawRows({middle, height}, m.workspaces[1]); };
     forkJoin->invoke(std::ref(drawLower), std::ref(drawUpper));
@@ -136,7 +136,7 @@ void ShapeRasterizer::drawAdded(parallel::ForkJoin* forkJoin) {
 
 // Returns the mean row of the shapes. The parts of the picture below and above this row take about the same time to
 // draw.
-int ShapeRasterizer::Impl::middleRow() const {
+int ShapeRasterizer::Impl::meanRowOfShapes() const {
     // The sum of the vertical positions of the shapes; 0 is the lower edge of the picture, and 1 the upper edge.
     double sum = 0;
     std::size_t count = 0;

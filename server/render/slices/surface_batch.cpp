@@ -23,7 +23,7 @@ constexpr std::uint32_t kNone = 0xffffffffU;
 
 }  // namespace
 
-void SurfaceBatch::collect(const scene::Scene& scene, DepthRange& depths, Selection selection) {
+void SurfaceBatch::collect(const scene::Scene& scene, DepthRange& depths, SliceSelection selection) {
     vertices_.clear();
     opaqueIndices_.clear();
     fringes_.clear();
@@ -34,7 +34,7 @@ void SurfaceBatch::collect(const scene::Scene& scene, DepthRange& depths, Select
     if (scene.surfaces.empty() && scene.fog.empty()) return;
     projection_ = ViewProjection::fromCamera(scene.camera, scene.viewport);
     const glm::dmat4 toView = scene.camera.view();
-    if (selection != Selection::projection) {
+    if (selection != SliceSelection::projection) {
         for (std::uint32_t slice = 0; slice < scene.placements.size(); ++slice)
             order_.push_back({slice, scene.placements[slice].position, scene.scale});
     } else if (scene.projectionPlacement.shown && scene.projection.focusSurface) {
@@ -44,7 +44,7 @@ void SurfaceBatch::collect(const scene::Scene& scene, DepthRange& depths, Select
     const auto depth = [&](const SurfacePlacement& place) { return -(toView * glm::dvec4(place.position, 1)).z; };
     std::ranges::sort(order_, std::greater<>(),
                       [&](const SurfacePlacement& place) { return std::tuple(depth(place), place.slice); });
-    if (selection == Selection::nearer_slices || selection == Selection::farther_slices)
+    if (selection == SliceSelection::nearer_slices || selection == SliceSelection::farther_slices)
         keepOnlySlicesIn(scene, selection);
     const auto add = [&](const SurfacePlacement& place, bool opaque) {
         const std::uint32_t slice = place.slice;
@@ -78,7 +78,7 @@ void SurfaceBatch::collect(const scene::Scene& scene, DepthRange& depths, Select
 }
 
 // Removes from order_ the slices that do not belong to `half`, the nearer or the farther slices.
-void SurfaceBatch::keepOnlySlicesIn(const scene::Scene& scene, Selection half) {
+void SurfaceBatch::keepOnlySlicesIn(const scene::Scene& scene, SliceSelection half) {
     const auto triangles = [&](const SurfacePlacement& place) {
         return scene.placements[place.slice].drawn ? scene.slices->surfaces[place.slice].triangles.size() : 0;
     };
@@ -86,7 +86,7 @@ void SurfaceBatch::keepOnlySlicesIn(const scene::Scene& scene, Selection half) {
     for (const SurfacePlacement& place : order_) all += triangles(place);
     auto middle = order_.begin();
     while (middle != order_.end() && 2 * farther < all) farther += triangles(*middle++);
-    if (half == Selection::nearer_slices) {
+    if (half == SliceSelection::nearer_slices) {
         order_.erase(order_.begin(), middle);
     } else {
         order_.erase(middle, order_.end());

@@ -27,7 +27,7 @@ class SurfaceBatch {
     /// The slices whose surfaces are collected: all slices, only the nearer slices, or only the farther slices. The
     /// nearer and the farther slices have about half of the triangles each. `projection` stands for the surfaces of the
     /// focus slice (the middle one) as the projection of the whole object shows them.
-    enum class Selection : std::uint8_t { slices, nearer_slices, farther_slices, projection };
+    enum class SliceSelection : std::uint8_t { slices, nearer_slices, farther_slices, projection };
 
     /// The place of one slice, with its surfaces, in the picture.
     struct SurfacePlacement {
@@ -45,7 +45,7 @@ class SurfaceBatch {
     ///
     /// The silhouettes of closed opaque surfaces get fringes: strips outside of the silhouettes, one pixel wide, whose
     /// opacity decreases outward to 0. Blended with what is behind them, the fringes antialias the silhouettes.
-    void collect(const scene::Scene& scene, DepthRange& depths, Selection selection = Selection::slices);
+    void collect(const scene::Scene& scene, DepthRange& depths, SliceSelection selection = SliceSelection::slices);
 
     const std::vector<SurfaceVertex>& vertices() const { return vertices_; }
     /// Returns the corners of the opaque triangles: three indices of vertices for each triangle. The entries from
@@ -68,7 +68,7 @@ class SurfaceBatch {
         std::uint32_t from, to, triangle;
     };
 
-    void keepOnlySlicesIn(const scene::Scene& scene, Selection half);
+    void keepOnlySlicesIn(const scene::Scene& scene, SliceSelection half);
     void addLevel(const scene::Scene& scene, std::size_t slice, const scene::SurfaceLook::LevelLook& level);
     void addAntialiasingFringes(const scene::Scene& scene, std::size_t slice,
                                 const scene::SurfaceLook::LevelLook& level);

@@ -234,8 +234,8 @@ OVAL4D_AVX2 inline std::uint32_t packPixel(__m128 color) {
 // Draws triangle i of the eight triangles in `s`. A register holds the eight quantities of one pixel (see LitVertex),
 // not eight pixels, because most rows of most triangles have fewer than eight pixels.
 template <Blending blending>
-OVAL4D_AVX2 inline void fill(const SurfaceCanvas& canvas, const TriangleSetup& s, std::size_t i,
-                             const LitVertex& pointA, const LitVertex& pointB, const LitVertex& pointC) {
+OVAL4D_AVX2 inline void fillTriangle(const SurfaceCanvas& canvas, const TriangleSetup& s, std::size_t i,
+                                     const LitVertex& pointA, const LitVertex& pointB, const LitVertex& pointC) {
     const __m256 a = _mm256_load_ps(&pointA.nearness), b = _mm256_load_ps(&pointB.nearness),
                  c = _mm256_load_ps(&pointC.nearness);
     // Each quantity is clamped to the range of its values at the corners, because the gradients of narrow triangles are
@@ -303,7 +303,7 @@ OVAL4D_AVX2 unsigned drawEightTriangles(const SurfaceCanvas& canvas, const LitVe
     for (; drawn != 0; drawn &= drawn - 1) {
         const auto i = static_cast<std::size_t>(std::countr_zero(drawn));
         const std::uint32_t* const corners = indices + 3 * i;
-        fill<blending>(canvas, lanes, i, points[corners[0]], points[corners[1]], points[corners[2]]);
+        fillTriangle<blending>(canvas, lanes, i, points[corners[0]], points[corners[1]], points[corners[2]]);
     }
     return clipped;
 }

@@ -38,7 +38,7 @@ Result<std::monostate> ClosedSurfaceSlicer::slice(double w, const IsosurfaceOpti
     options_ = options;
     sign_ = options.inside == fields::BodySide::below ? 1 : -1;
     level_ = sign_ * options.level;
-    status_ = RunStatus::working;
+    status_ = ExtractionStatus::working;
     numbers_.clear();
     caps_.clear();
     w = movedIntoDomain(w);
@@ -48,8 +48,8 @@ Result<std::monostate> ClosedSurfaceSlicer::slice(double w, const IsosurfaceOpti
             heights_[axis].push_back(lattice_.positionTerm(axis, i).w - (axis == 0 ? w : 0));
     }
     cutRange({glm::ivec4(0), lattice_.pointCounts() - 1});
-    if (status_ == RunStatus::stopped) return Error{ErrorCode::too_large, "the exact slice was stopped"};
-    if (status_ == RunStatus::too_large) {
+    if (status_ == ExtractionStatus::stopped) return Error{ErrorCode::too_large, "the exact slice was stopped"};
+    if (status_ == ExtractionStatus::too_large) {
         return Error{ErrorCode::too_large, "the surface of an exact slice has more than the allowed " +
                                                std::to_string(options.maxTriangles) + " triangles"};
     }
@@ -82,11 +82,11 @@ double ClosedSurfaceSlicer::movedIntoDomain(double w) const {
 
 // Cuts the lattice cells of `range`, unless the surface cannot meet the range. Divides the range in two again and
 // again, until each part has at most kBrick cells along each axis.
-void ClosedSurfaceSlicer::cutRange(const CellRange& range) {
-    if (status_ != RunStatus::working || !meetsHyperplane(range)) return;
+void ClosedSurfaceSlicer::cutRange(const LatticeCellBox& range) {
+    if (status_ != ExtractionStatus::working || !meetsHyperplane(range)) return;
     constexpr std::size_t kVisitsPerQuestion = 16;
     if (++visits_ % kVisitsPerQuestion == 0 && options_.mustStop && options_.mustStop()) {
-        status_ = RunStatus::stopped;
+        status_ = ExtractionStatus::stopped;
         return;
     }
     const fields::ValueBounds bounds = lattice_.valueBounds(range.first, range.end);
@@ -100,7 +100,7 @@ void ClosedSurfaceSlicer::cutRange(const CellRange& range) {
     for (int other = 1; other < 4; ++other) axis = size[other] > size[axis] ? other : axis;
     if (size[axis] <= kBrick) return cutBrick(range);
     const int middle = range.first[axis] + (size[axis] / 2 + kBrick - 1) / kBrick * kBrick;
-    CellRange lower = range, upper = range;
+    LatticeCellBox lower = range, upper = range;
     lower.end[axis] = upper.first[axis] = middle;
     cutRange(lower);
     cutRange(upper);
@@ -111,7 +111,7 @@ void ClosedSurfaceSlicer::cutRange(const CellRange& range) {
 // the sum of the four least terms in the range, and the greatest height is the sum of the four greatest terms. All sums
 // add their terms in the same order. So they bound all heights in the range even after rounding, because a rounded sum
 // is monotone in each term.
-bool ClosedSurfaceSlicer::meetsHyperplane(const CellRange& range) const {
+bool ClosedSurfaceSlicer::meetsHyperplane(const LatticeCellBox& range) const {
     std::array<double, 4> low{}, high{};
     for (std::size_t axis = 0; axis < 4; ++axis) {
         const double first = heights_[axis][static_cast<std::size_t>(range.first[static_cast<int>(axis)])];
@@ -121,7 +121,7 @@ bool ClosedSurfaceSlicer::meetsHyperplane(const CellRange& range) const {
     return (low[0] + low[1]) + (low[2] + low[3]) < 0 && (high[0] + high[1]) + (high[2] + high[3]) >= 0;
 }
 
-bool ClosedSurfaceSlicer::touchesBoundary(const CellRange& range) const {
+bool ClosedSurfaceSlicer::touchesBoundary(const LatticeCellBox& range) const {
     return glm::any(glm::equal(range.first, glm::ivec4(0))) ||
            glm::any(glm::equal(range.end, lattice_.pointCounts() - 1));
 }
@@ -130,7 +130,7 @@ double ClosedSurfaceSlicer::signedValueOrNan(float sample) const {
     return std::isfinite(sample) ? sign_ * static_cast<double>(sample) : std::numeric_limits<double>::quiet_NaN();
 }
 
-void ClosedSurfaceSlicer::cutBrick(const CellRange& range) {
+void ClosedSurfaceSlicer::cutBrick(const LatticeCellBox& range) {
     std::array<float, kBrickPoints> samples{};
     const glm::ivec4 size = range.end - range.first, points = size + 1;
     const glm::u64vec4 n(points);
@@ -141,7 +141,7 @@ void ClosedSurfaceSlicer::cutBrick(const CellRange& range) {
             for (c.y = 0; c.y < size.y; ++c.y) {
                 for (c.x = 0; c.x < size.x; ++c.x) {
                     const glm::ivec4 cell = range.first + c;
-                    if (status_ != RunStatus::working || !meetsHyperplane({cell, cell + 1})) continue;
+                    if (status_ != ExtractionStatus::working || !meetsHyperplane({cell, cell + 1})) continue;
                     std::array<double, 16> heights{}, values{};
                     for (unsigned corner = 0; corner < 16; ++corner) {
                         const glm::ivec4 step(corner & 1U, corner >> 1U & 1U, corner >> 2U & 1U, corner >> 3U);
@@ -197,7 +197,7 @@ void ClosedSurfaceSlicer::cutCell(glm::ivec4 cell, const std::array<double, 16>&
         findCrossings(cut, above);
         cutPentatope(cut, above, upper | lower);
     }
-    if (out_->triangles.size() + caps_.size() > options_.maxTriangles) status_ = RunStatus::too_large;
+    if (out_->triangles.size() + caps_.size() > options_.maxTriangles) status_ = ExtractionStatus::too_large;
 }
 
 // Sets `cut.crossings`: the points where the hyperplane crosses the edges of the pentatope. Pentatopes that share an

@@ -79,11 +79,11 @@ class ClosedSurfaceSlicer {
     static constexpr int kBrick = 4;
     static constexpr std::size_t kBrickPoints = 625;  // the lattice points of the largest brick: (kBrick + 1)⁴
 
-    enum class RunStatus : std::uint8_t { working, too_large, stopped };
+    enum class ExtractionStatus : std::uint8_t { working, too_large, stopped };
     using Triangle = std::array<std::uint32_t, 3>;
 
     // A box of lattice cells. Along each axis, it has the cells from `first` up to, but not including, `end`.
-    struct CellRange {
+    struct LatticeCellBox {
         glm::ivec4 first, end;
     };
     // The point where the hyperplane crosses an edge of a pentatope.
@@ -104,10 +104,10 @@ class ClosedSurfaceSlicer {
     };
 
     double movedIntoDomain(double w) const;
-    void cutRange(const CellRange& range);
-    bool meetsHyperplane(const CellRange& range) const;
-    bool touchesBoundary(const CellRange& range) const;
-    void cutBrick(const CellRange& range);
+    void cutRange(const LatticeCellBox& range);
+    bool meetsHyperplane(const LatticeCellBox& range) const;
+    bool touchesBoundary(const LatticeCellBox& range) const;
+    void cutBrick(const LatticeCellBox& range);
     void cutCell(glm::ivec4 cell, const std::array<double, 16>& heights, const std::array<double, 16>& values);
     void cutPentatope(const CutPentatope& cut, unsigned above, unsigned boundaryFacets);
     void addCapAtNanCorner(const CutPentatope& cut, unsigned above, std::size_t hole);
@@ -130,7 +130,7 @@ class ClosedSurfaceSlicer {
     // The height of the lattice point (i, j, k, l) above the hyperplane is heights_[0][i] + heights_[1][j] +
     // heights_[2][k] + heights_[3][l].
     std::array<std::vector<double>, 4> heights_;
-    RunStatus status_ = RunStatus::working;
+    ExtractionStatus status_ = ExtractionStatus::working;
     std::size_t visits_ = 0;
     KeyNumbering numbers_;
     std::vector<Triangle> caps_;

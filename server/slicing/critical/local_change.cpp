@@ -63,7 +63,7 @@ LocalTopologyChangeSearch::LocalTopologyChangeSearch(const fields::Field& field,
       z_(kWindowLayer),
       w_(kWindowLayer) {}
 
-std::optional<double> LocalTopologyChangeSearch::find(const PartCountChange& change, const SearchStart& start) {
+std::optional<double> LocalTopologyChangeSearch::find(const SoughtPartCountChange& change, const SearchStart& start) {
     change_ = change;
     tolerance_ = start.tolerance;
     samplings_ = 0;

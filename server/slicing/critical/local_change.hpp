@@ -40,7 +40,7 @@ class LocalTopologyChangeSearch {
     static constexpr double kZoom = 4;  // the width of a window divided by that of the next one
 
     /// The kind of change to search for: which parts become more numerous, or fewer, while w increases.
-    struct PartCountChange {
+    struct SoughtPartCountChange {
         bool ofBody = true;       ///< true: the parts inside the level; false: the parts outside
         bool becomesMore = true;  ///< true: the number of these parts grows; false: it falls
     };
@@ -61,7 +61,7 @@ class LocalTopologyChangeSearch {
 
     /// Returns the w of the change nearest to `start.w`. Returns an empty optional if there is no change in the first
     /// window, if the next two windows do not have the same change, or if the search needs too many samples.
-    std::optional<double> find(const PartCountChange& change, const SearchStart& start);
+    std::optional<double> find(const SoughtPartCountChange& change, const SearchStart& start);
 
   private:
     // A cube in the section: see the comment of the class.
@@ -95,7 +95,7 @@ class LocalTopologyChangeSearch {
     const std::function<bool()> mustEnd_;
     // The result of leastStepAlongW(): bisection does not halve an interval of w that is at most this long.
     double leastStep_ = 0;
-    PartCountChange change_;
+    SoughtPartCountChange change_;
     double tolerance_ = 0;
     int samplings_ = 0;  // how often a window was sampled in the current search
     InBodyFlags flags_, otherFlags_;

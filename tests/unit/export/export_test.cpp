@@ -107,11 +107,12 @@ TEST(File, tellsWhatItLacks) {
 TEST(File, listsOnlySomeOfManySlices) {
     std::vector<int> slices;
     for (int i = 0; i < 30; ++i) slices.push_back(i);
-    EXPECT_EQ(warningOfOmission({-2, 40, 0.5}, slices, "empty"),
+    EXPECT_EQ(omittedSlicesWarning({-2, 40, 0.5}, slices, "empty"),
               "30 of 40 slices are empty and left out: w = −1, −0.5, 0, 0.5, 1, 1.5, 2, 2.5, 3, 3.5, 4, 4.5 and 18 "
               "more");
-    EXPECT_EQ(warningOfOmission({4, 1, 0.5}, std::vector<int>{0}, "empty"), "the slice is empty and left out: w = 2");
-    EXPECT_EQ(warningOfOmission({4, 1, 0.5}, std::vector<int>{0}, "empty", 98),
+    EXPECT_EQ(omittedSlicesWarning({4, 1, 0.5}, std::vector<int>{0}, "empty"),
+              "the slice is empty and left out: w = 2");
+    EXPECT_EQ(omittedSlicesWarning({4, 1, 0.5}, std::vector<int>{0}, "empty", 98),
               "the slice is empty and left out: w = 100");
 }
 

@@ -87,16 +87,16 @@ TEST(ConstantSliceCoordinate, IsTheMomentUntilTimeIsMixedWithSpace) {
 TEST(PlaceInBox, IsTheMomentOrThePlaceOfASlice) {
     const Rotation quarter(RotationAngles{Plane::xw, std::numbers::pi / 2}), oblique(RotationAngles{Plane::xw, 0.3});
     const Field known = fieldWith({"m", "m", "m", "s"}), unknown = fieldWith({});
-    EXPECT_EQ(placeInBox(known, {}, 0.25, 0.1), "3.75 s")
+    EXPECT_EQ(constantSliceCoordinateText(known, {}, 0.25, 0.1), "3.75 s")
         << "w goes from −0.5 to 0.5 while the time goes from 0 to 5 s";
-    EXPECT_EQ(placeInBox(known, {}, 0.2512345, 0.1), "3.76 s");
-    EXPECT_EQ(placeInBox(unknown, {}, 0.25, 0.1), "box w = 3.75");
-    EXPECT_EQ(placeInBox(known, quarter, 0, 0.1), "box x = 0.5 m");
-    EXPECT_EQ(placeInBox(unknown, quarter, 0, 0.1), "box x = 0.5");
-    EXPECT_EQ(placeInBox(known, oblique, 0, 0.1), "");
+    EXPECT_EQ(constantSliceCoordinateText(known, {}, 0.2512345, 0.1), "3.76 s");
+    EXPECT_EQ(constantSliceCoordinateText(unknown, {}, 0.25, 0.1), "box w = 3.75");
+    EXPECT_EQ(constantSliceCoordinateText(known, quarter, 0, 0.1), "box x = 0.5 m");
+    EXPECT_EQ(constantSliceCoordinateText(unknown, quarter, 0, 0.1), "box x = 0.5");
+    EXPECT_EQ(constantSliceCoordinateText(known, oblique, 0, 0.1), "");
     const Field formula = *fieldFromFormula("f", "x", {glm::dvec4(-1), glm::dvec4(1)});
-    EXPECT_EQ(placeInBox(formula, {}, 0.25, 0.1), "");
-    EXPECT_EQ(placeInBox(formula, quarter, 0, 0.1), "box x = 0");
+    EXPECT_EQ(constantSliceCoordinateText(formula, {}, 0.25, 0.1), "");
+    EXPECT_EQ(constantSliceCoordinateText(formula, quarter, 0, 0.1), "box x = 0");
 }
 
 TEST(AxisUnits, FollowTheNames) {

@@ -26,8 +26,8 @@ double difference(const glm::dmat4& a, const glm::dmat4& b) {
 // Returns the matrix of R_ab(θ) by its definition: a' = a cos θ − b sin θ, b' = a sin θ + b cos θ.
 glm::dmat4 byDefinition(Plane plane, double angle) {
     const auto axis = [](char letter) { return letter == 'w' ? 3 : letter - 'x'; };
-    const int a = axis(name(plane)[0]);
-    const int b = axis(name(plane)[1]);
+    const int a = axis(planeName(plane)[0]);
+    const int b = axis(planeName(plane)[1]);
     glm::dmat4 m(1);
     m[a][a] = m[b][b] = std::cos(angle);
     m[b][a] = -std::sin(angle);
@@ -55,7 +55,7 @@ TEST(Rotation, turnsTheFirstAxisTowardTheSecond) {
         for (const double angle : {0.3, pi / 2, -1.7}) {
             EXPECT_LT(difference(Rotation(RotationAngles{plane, angle, {}}).matrix(), byDefinition(plane, angle)),
                       1e-15)
-                << name(plane);
+                << planeName(plane);
         }
     }
 }
@@ -94,15 +94,15 @@ TEST(Rotation, isTheRotationOfItsTurn) {
     for (int i = 0; i < 200; ++i) {
         // all angles are below π, so no other turn with smaller angles gives the same rotation
         const RotationAngles small = randomTurnInAllPlanes(random, 3);
-        const RotationAngles again = Rotation(small).turn();
+        const RotationAngles again = Rotation(small).smallestAngles();
         for (const Plane plane : kPlanes) EXPECT_NEAR(again[plane].value_or(0), *small[plane], 1e-12);
         const Rotation any = Rotation(randomTurn(random, true)) * Rotation(randomTurn(random, true));
-        EXPECT_LT(difference(Rotation(any.turn()).matrix(), any.matrix()), 1e-12);
+        EXPECT_LT(difference(Rotation(any.smallestAngles()).matrix(), any.matrix()), 1e-12);
     }
-    EXPECT_TRUE(Rotation().turn().planes().empty());
-    EXPECT_EQ(Rotation(RotationAngles(Plane::yw, 0.3)).turn().planes(), std::vector{Plane::yw});
+    EXPECT_TRUE(Rotation().smallestAngles().planes().empty());
+    EXPECT_EQ(Rotation(RotationAngles(Plane::yw, 0.3)).smallestAngles().planes(), std::vector{Plane::yw});
     const Rotation central(glm::dquat(-1, 0, 0, 0), glm::dquat(1, 0, 0, 0));
-    EXPECT_LT(difference(Rotation(central.turn()).matrix(), central.matrix()), 1e-12);
+    EXPECT_LT(difference(Rotation(central.smallestAngles()).matrix(), central.matrix()), 1e-12);
     const RotationAngles sum =
         RotationAngles(Plane::xy, 5) + RotationAngles(Plane::xy, 4) + RotationAngles(Plane::xw, 1);
     EXPECT_EQ(sum[Plane::xy], 9);
@@ -112,9 +112,9 @@ TEST(Rotation, isTheRotationOfItsTurn) {
 TEST(Rotation, perpendicularPlanesShareNoAxis) {
     for (const Plane plane : kPlanes) {
         EXPECT_EQ(orthogonalComplement(orthogonalComplement(plane)), plane);
-        for (const char axis : name(plane))
-            EXPECT_EQ(name(orthogonalComplement(plane)).find(axis), std::string_view::npos);
-        EXPECT_EQ(planeNamed(name(plane)), plane);
+        for (const char axis : planeName(plane))
+            EXPECT_EQ(planeName(orthogonalComplement(plane)).find(axis), std::string_view::npos);
+        EXPECT_EQ(planeNamed(planeName(plane)), plane);
     }
     EXPECT_EQ(planeNamed("yx"), std::nullopt);
 }

@@ -83,7 +83,7 @@ class Simulation {
             if (!next) return;
             next->job(0);
             ++running_;
-            at(now_ + begun_.takes, [this, begun = std::make_shared<FairQueue::DueJob>(*next), job = begun_] {
+            at(now_ + begun_.takes, [this, begun = std::make_shared<FairQueue::StartableJob>(*next), job = begun_] {
                 --running_;
                 used_[job.jobQueue.get()] += job.takes;
                 queue_.recordJobEnd(*begun, job.takes);

@@ -15,7 +15,7 @@ TEST(FocusSectionNamer, IsFastWhereThereIsLittleToCut) {
     EXPECT_TRUE(FocusSectionNamer::isFast(field));
     scene::PictureRequest picture;
     picture.source = picture.object = field;
-    EXPECT_EQ(FocusSectionNamer().name(picture).names, slicing::SectionNamePair{})
+    EXPECT_EQ(FocusSectionNamer().name(picture).names, slicing::SliceAndHullNames{})
         << "sections of fields have no names";
 }
 

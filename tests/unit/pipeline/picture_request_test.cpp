@@ -18,9 +18,9 @@ TEST(PictureRequest, ComesToTheRasterizerAsItWas) {
         const scene::PictureRequest picture =
             session::pictureRequestOf(sessionWith(setting).current, {640, 360}, slicing::Quality::draft);
         std::string bytes;
-        raster::encodeRequest(picture, {7, 8, 9}, bytes);
+        raster::encodeDrawRequest(picture, {7, 8, 9}, bytes);
         raster::DrawRequest order;
-        raster::decodeRequest(bytes, order);
+        raster::decodeDrawRequest(bytes, order);
         EXPECT_EQ(order.source, slicing::infoOf(picture.source).serial);
         EXPECT_EQ(order.object, slicing::infoOf(picture.object).serial);
         order.picture.source = picture.source;

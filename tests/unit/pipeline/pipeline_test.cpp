@@ -74,7 +74,7 @@ TEST(Pipeline, NamesTheFocusSectionOnce) {
     Pipeline pipeline(nullptr, nullptr), other(nullptr, nullptr);
     scene::PictureRequest picture = pictureOf(support::shared("24-cell"));
     slicing::NamedSection section = pipeline.nameFocusSection(picture);
-    const slicing::SectionNamePair names = section.names;
+    const slicing::SliceAndHullNames names = section.names;
     EXPECT_NE(names.slice, "");
     slicing::SliceSet slices;
     pipeline.slice(picture, slices);

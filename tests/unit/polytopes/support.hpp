@@ -44,7 +44,9 @@ inline polytopes::PolytopeDesign designFor(std::string_view name) {
     return std::get<polytopes::PolytopeDesign>(polytopes::designNamed(name, 1'000'000));
 }
 
-inline std::shared_ptr<const polytopes::Polytope> shared(std::string_view name) { return cache().get(designFor(name)); }
+inline std::shared_ptr<const polytopes::Polytope> shared(std::string_view name) {
+    return cache().findOrBuild(designFor(name));
+}
 
 /// Returns the polytope with this name. The reference remains valid until the program ends.
 inline const polytopes::Polytope& named(std::string_view name) {

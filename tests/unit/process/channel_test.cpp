@@ -46,9 +46,9 @@ bool mainThreadWaits() {
 TEST(Channel, KnowsWhenNobodyIsThere) {
     const auto [here, there] = socketPair();
     const Channel channel(here);
-    EXPECT_FALSE(channel.wait(soon()));
+    EXPECT_FALSE(channel.waitForMessage(soon()));
     close(there);
-    EXPECT_TRUE(channel.wait(soon()));
+    EXPECT_TRUE(channel.waitForMessage(soon()));
     MessageType type{};
     std::string body;
     EXPECT_EQ(channel.receive(type, body), TransferResult::closed);

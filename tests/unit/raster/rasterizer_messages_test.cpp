@@ -18,11 +18,11 @@ TEST(RasterizerMessages, BytesCutShortAreRefused) {
     scene::PictureRequest picture;
     picture.source = picture.object = polytopes::fiveCell();
     std::string bytes;
-    encodeRequest(picture, {}, bytes);
+    encodeDrawRequest(picture, {}, bytes);
     DrawRequest order;
-    EXPECT_NO_THROW(decodeRequest(bytes, order));
+    EXPECT_NO_THROW(decodeDrawRequest(bytes, order));
     for (std::size_t size = 0; size < bytes.size(); ++size)
-        EXPECT_THROW(decodeRequest(std::string_view(bytes).substr(0, size), order), std::runtime_error);
+        EXPECT_THROW(decodeDrawRequest(std::string_view(bytes).substr(0, size), order), std::runtime_error);
 }
 
 }  // namespace

@@ -32,7 +32,7 @@ std::vector<GroundExample> examples() {
 class Backgrounds : public testing::TestWithParam<ShapeBackend> {};
 
 TEST_P(Backgrounds, AreSeenWhereNothingIsDrawn) {
-    Renderer renderer(fontFile(), GetParam());
+    Renderer renderer(defaultFontPath(), GetParam());
     for (const auto& [name, background] : scene::kBackgrounds) {
         SCOPED_TRACE(name);
         scene::Look look;
@@ -48,7 +48,7 @@ TEST_P(Backgrounds, AreSeenWhereNothingIsDrawn) {
 
 // A transparent picture that is placed on white looks like a picture with a white background.
 TEST_P(Backgrounds, ATransparentPictureOnWhiteIsTheWhiteOne) {
-    Renderer renderer(fontFile(), GetParam());
+    Renderer renderer(defaultFontPath(), GetParam());
     for (const GroundExample& example : examples()) {
         SCOPED_TRACE(example.polytope);
         const auto drawn = [&](scene::Background background) {

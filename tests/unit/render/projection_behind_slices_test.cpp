@@ -22,7 +22,7 @@ namespace {
 std::vector<std::unique_ptr<Renderer>> bothRenderers() {
     std::vector<std::unique_ptr<Renderer>> made;
     for (const ShapeBackend backend : {ShapeBackend::fastest, ShapeBackend::open_gl})
-        made.push_back(std::make_unique<Renderer>(fontFile(), backend));
+        made.push_back(std::make_unique<Renderer>(defaultFontPath(), backend));
     return made;
 }
 
@@ -80,7 +80,7 @@ TEST_P(ProjectionBehindSlices, CoversNoPolytopesSlices) {
     std::mt19937 random(71);
     const auto renderers = bothRenderers();
     std::vector<Overlap> overlaps(renderers.size());
-    for (const scene::ViewRow& view : scene::kViews) {
+    for (const scene::ViewTableRow& view : scene::kViews) {
         // The matrix is like View::single, but its panels cover the slice and the projection.
         if (view.value == scene::View::matrix) continue;
         for (const scene::Viewport viewport : kShapes) {

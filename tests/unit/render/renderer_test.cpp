@@ -210,10 +210,10 @@ TEST_F(Pictures, ShowNothingOfEarlierPictures) {
     for (const ShapeBackend backend : {ShapeBackend::fastest, ShapeBackend::open_gl}) {
         std::vector<image::Image> wanted;  // each picture is drawn by a renderer that has drawn nothing else
         for (const Later& example : examples) {
-            Renderer fresh(fontFile(), backend);
+            Renderer fresh(defaultFontPath(), backend);
             wanted.push_back(subjectOf(example).draw(fresh));
         }
-        Renderer used(fontFile(), backend);
+        Renderer used(defaultFontPath(), backend);
         for (std::size_t i = 0; i < examples.size(); ++i) {
             SCOPED_TRACE(examples[i].name);
             before.draw(used);
@@ -253,7 +253,7 @@ TEST_F(Pictures, OfNothingIsBackground) {
 TEST_F(Pictures, OfEverySizeAndViewAreDrawn) {
     for (const scene::Viewport viewport :
          {scene::Viewport{1, 1}, {1, 2}, {3, 1}, {16, 4096}, {4096, 16}, {2, 2000}, {7680, 64}})
-        for (const scene::ViewRow& view : scene::kViews) {
+        for (const scene::ViewTableRow& view : scene::kViews) {
             SCOPED_TRACE(view.name);
             scene::Look look;
             look.view = view.value;

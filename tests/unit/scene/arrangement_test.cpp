@@ -25,7 +25,7 @@ scene::AvailableSpace roomOf(double aspect, bool hasProjection = false) {
 TEST(Views, haveDifferentNamesAndNumbers) {
     std::set<std::string_view> names;
     std::set<scene::View> values;
-    for (const scene::ViewRow& view : scene::kViews) {
+    for (const scene::ViewTableRow& view : scene::kViews) {
         names.insert(view.name);
         values.insert(view.value);
     }
@@ -34,7 +34,7 @@ TEST(Views, haveDifferentNamesAndNumbers) {
 }
 
 TEST(Views, drawTheSlicesThatTheTableSays) {
-    for (const scene::ViewRow& view : scene::kViews) {
+    for (const scene::ViewTableRow& view : scene::kViews) {
         SCOPED_TRACE(view.name);
         scene::Look look;
         look.view = view.value;
@@ -47,7 +47,7 @@ TEST(Views, drawTheSlicesThatTheTableSays) {
 
 TEST(SliceArrangement, hasTheFocusSliceAtTheOriginAndInFrontOfTheCamera) {
     constexpr double kBallRadius = 0.05;
-    for (const scene::ViewRow& view : scene::kViews) {
+    for (const scene::ViewTableRow& view : scene::kViews) {
         for (const int count : {1, 3, 21, 201}) {
             for (const double aspect : {0.5, 1.0, 16.0 / 9, 4.0}) {
                 SCOPED_TRACE(testing::Message() << view.name << ", " << count << ", " << aspect);
@@ -65,7 +65,7 @@ TEST(SliceArrangement, hasTheFocusSliceAtTheOriginAndInFrontOfTheCamera) {
 
 TEST(SliceArrangement, ofAllSlicesHasADifferentPlaceForEach) {
     constexpr int kCount = 21;
-    for (const scene::ViewRow& view : scene::kViews) {
+    for (const scene::ViewTableRow& view : scene::kViews) {
         if (!view.showsAllSlices) continue;
         const scene::SliceArrangement made = scene::arrangementOf(view.value, kCount, 0, 1.5, roomOf(1.5));
         for (int i = 1; i < kCount; ++i) {
@@ -77,7 +77,7 @@ TEST(SliceArrangement, ofAllSlicesHasADifferentPlaceForEach) {
 }
 
 TEST(SliceArrangement, hasNoNegativeZeroInPositions) {
-    for (const scene::ViewRow& view : scene::kViews) {
+    for (const scene::ViewTableRow& view : scene::kViews) {
         const scene::SliceArrangement made = scene::arrangementOf(view.value, 21, 0.05, 1.5, roomOf(1.5));
         for (const double u : {-1.0, -0.5, 0.0, 0.5, 1.0}) {
             const glm::dvec3 position = made.positionAt(u);
@@ -111,7 +111,7 @@ TEST(SliceArrangement, ofAColumnIsARowTurnedByAQuarter) {
 }
 
 TEST(SliceArrangement, ofTwoSlicesHasTheProjectionBesideThem) {
-    for (const scene::ViewRow& view : scene::kViews) {
+    for (const scene::ViewTableRow& view : scene::kViews) {
         if (!view.showsAllSlices) continue;
         for (const double aspect : {0.5625, 1.0, 16.0 / 9}) {
             SCOPED_TRACE(testing::Message() << view.name << ", " << aspect);

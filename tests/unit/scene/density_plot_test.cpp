@@ -137,12 +137,12 @@ TEST(DensityPlot, IsShownForManyVerticesOnly) {
         scene::Composer().compose(polytope, turn, slices, 0, look, {}, scene);
         return scene;
     };
-    EXPECT_FALSE(composed("600-cell", {}).showsDensity());  // it has 120 vertices
+    EXPECT_FALSE(composed("600-cell", {}).showsDensityStrip());  // it has 120 vertices
     scene::Look without;
     without.parts.coordinates = false;
-    EXPECT_FALSE(composed("120-cell", without).showsDensity());
+    EXPECT_FALSE(composed("120-cell", without).showsDensityStrip());
     const scene::Scene scene = composed("120-cell", {});  // it has 600 vertices
-    EXPECT_TRUE(scene.showsDensity());
+    EXPECT_TRUE(scene.showsDensityStrip());
     const auto polytope = support::shared("120-cell");
     const DensityPlot alone = densityOf(polytope->vertices, turn.matrix(), polytope->circumradius);
     EXPECT_TRUE(std::ranges::equal(scene.plotTones, alone.tones()));

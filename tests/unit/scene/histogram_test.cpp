@@ -49,7 +49,7 @@ TEST(Histogram, IsShownOfFieldsUnlessItIsHidden) {
     const scene::Scene& shown = pictures.composed(look);
     EXPECT_TRUE(shown.look.parts.coordinates);
     EXPECT_TRUE(shown.showsHistogram());
-    EXPECT_FALSE(shown.showsDensity());
+    EXPECT_FALSE(shown.showsDensityStrip());
     EXPECT_EQ(shown.plotTones.size(),
               std::size_t{CoordinateValueHistograms::kRows} * CoordinateValueHistograms::kColumns);
     const double eye = shown.camera.shiftY;

@@ -32,7 +32,7 @@ TEST(Labels, areInThePictureAndApart) {
     for (const scene::Viewport viewport : kWindows) {
         for (const int count : {1, 3, 5, 11, 21, 41, 61, 101, 151, 201}) {
             for (const double spacing : {0.0, 1.0 / 4096, 1e-8, 1e3}) {
-                for (const scene::ViewRow& view : scene::kViews) {
+                for (const scene::ViewTableRow& view : scene::kViews) {
                     for (const bool whole : {false, true}) {
                         scene::Look look;
                         look.view = view.value;

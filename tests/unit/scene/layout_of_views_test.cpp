@@ -77,7 +77,7 @@ TEST(Oval, closes) {
 }
 
 TEST(EvenNumbersOfSlices, standSymmetricallyAndApart) {
-    for (const scene::ViewRow& view : scene::kViews) {
+    for (const scene::ViewTableRow& view : scene::kViews) {
         if (!view.showsAllSlices) continue;
         scene::Look look;
         look.view = view.value;

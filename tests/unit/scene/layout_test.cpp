@@ -27,7 +27,7 @@ using support::named;
 // Very narrow pictures are upright: a negative field of view would show the picture upside down.
 TEST(PictureLayout, ofVeryNarrowPicturesIsUpright) {
     for (const scene::Viewport viewport : {scene::Viewport{16, 400}, {16, 1000}, {16, 8192}, {8192, 16}, {16, 16}}) {
-        for (const scene::ViewRow& view : scene::kViews) {
+        for (const scene::ViewTableRow& view : scene::kViews) {
             scene::Look look;
             look.view = view.value;
             const Scene s = composed("24-cell", 21, viewport, look);
@@ -43,7 +43,7 @@ TEST(ObjectProjection, standsInSightAndClearOfTheSlices) {
          {scene::Viewport{1280, 720}, {1920, 1080}, {640, 640}, {375, 667}, {3000, 800}}) {
         for (const char* name : {"5-cell", "120-cell"}) {
             for (const int count : {1, 3, 5, 21, 61, 201}) {
-                for (const scene::ViewRow& view : scene::kViews) {
+                for (const scene::ViewTableRow& view : scene::kViews) {
                     SCOPED_TRACE(view.name);
                     scene::Look look;
                     look.view = view.value;
@@ -101,7 +101,7 @@ TEST(PictureLayout, hasTheRadiiOfBallsAndBars) {
 }
 
 TEST(Thickness, keepsSlicesAndProjectionWithTheirBallsInSight) {
-    for (const scene::ViewRow& view : scene::kViews) {
+    for (const scene::ViewTableRow& view : scene::kViews) {
         for (const double thickness : {0.25, 4.0}) {
             SCOPED_TRACE(testing::Message() << view.name << ", thickness " << thickness);
             scene::Look look;
@@ -215,7 +215,7 @@ TEST(Matrix, standsBesideTheFocusSlice) {
 TEST(Axes, areBesideTheSliceAndTheProjection) {
     for (const scene::Viewport viewport :
          {scene::Viewport{768, 1024}, {900, 600}, {640, 640}, {1280, 720}, {375, 667}}) {
-        for (const scene::ViewRow& view : scene::kViews) {
+        for (const scene::ViewTableRow& view : scene::kViews) {
             if (view.showsAllSlices) continue;
             for (const bool whole : {false, true}) {
                 scene::Look look;

@@ -117,14 +117,14 @@ TEST(PickLevel, FindsCapsIfTheyAreDrawn) {
     look.view = View::single;
     look.parts.balls = look.parts.bars = false;
     for (const auto inside : {fields::BodySide::below, fields::BodySide::above}) {
-        for (const CapStyle caps : {CapStyle::plain, CapStyle::open}) {
+        for (const SurfaceCapStyle caps : {SurfaceCapStyle::plain, SurfaceCapStyle::open}) {
             look.field.levels = {0};
             look.field.inside = inside;
             look.caps = caps;
             FieldPicture picture("x", look, {}, kBox);
             const double x = inside == fields::BodySide::below ? -0.5 : 0.5;
             const auto hit = picture.at(picture.pixelOf(10, {x, 0.1, 1}));
-            if (caps == CapStyle::open) {
+            if (caps == SurfaceCapStyle::open) {
                 EXPECT_TRUE(!hit || !hit->cap);
                 continue;
             }

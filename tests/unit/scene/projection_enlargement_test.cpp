@@ -26,7 +26,7 @@ TEST(ProjectionEnlargement, PutsTheProjectionBehindTheSlicesFromEverywhere) {
     std::size_t enlarged = 0, inFront = 0;
     for (const char* name : {"5-cell", "24-cell"}) {
         const auto& p = support::named(name);
-        for (const ViewRow& view : kViews) {
+        for (const ViewTableRow& view : kViews) {
             for (const Viewport viewport : kWindows) {
                 Look look;
                 look.view = view.value;

@@ -13,18 +13,18 @@ namespace oval4d::scene {
 namespace {
 
 TEST(ValueColorScale, DivergesAtZeroIfItIsInTheMiddle) {
-    const ValueColorScale even = valueScaleFor({-1, 3});
+    const ValueColorScale even = valueColorScaleFor({-1, 3});
     EXPECT_EQ(even, (ValueColorScale{-3, 3, true}));
     EXPECT_EQ(even.colorOf(0), divergingColor(0));
     EXPECT_EQ(even.colorOf(3), divergingColor(1));
     EXPECT_EQ(even.colorOf(-1.5), divergingColor(-0.5));
-    const ValueColorScale positive = valueScaleFor({0, 3});
+    const ValueColorScale positive = valueColorScaleFor({0, 3});
     EXPECT_EQ(positive, (ValueColorScale{0, 3, false}));
     EXPECT_EQ(positive.colorOf(3), sequentialColor(1));
-    EXPECT_EQ(valueScaleFor({-0.1, 3}), (ValueColorScale{-0.1, 3, false}));
-    EXPECT_EQ(valueScaleFor({-3, -1}), (ValueColorScale{-3, -1, false}));
+    EXPECT_EQ(valueColorScaleFor({-0.1, 3}), (ValueColorScale{-0.1, 3, false}));
+    EXPECT_EQ(valueColorScaleFor({-3, -1}), (ValueColorScale{-3, -1, false}));
     EXPECT_EQ(positive.colorOf(std::numeric_limits<double>::quiet_NaN()), noValueColor());
-    EXPECT_EQ(valueScaleFor({2, 2}).colorOf(2), sequentialColor(0.5)) << "a constant";
+    EXPECT_EQ(valueColorScaleFor({2, 2}).colorOf(2), sequentialColor(0.5)) << "a constant";
 }
 
 int lightness(Color color) { return static_cast<int>((color >> 16U & 255U) + (color >> 8U & 255U) + (color & 255U)); }
@@ -49,7 +49,7 @@ TEST(SurfaceLook, CapsFollowTheirSetting) {
     chooseSurfaceLook(*field, look, planes, out);
     EXPECT_TRUE(out.levels.back().caps);
     EXPECT_FALSE(out.colorsPoints() || out.colorsCapPoints());
-    look.caps = CapStyle::open;
+    look.caps = SurfaceCapStyle::open;
     look.coloring = Coloring::value;
     chooseSurfaceLook(*field, look, planes, out);
     EXPECT_FALSE(out.levels.back().caps);
@@ -60,7 +60,7 @@ TEST(SurfaceLook, CapsFollowTheirSetting) {
     surface.secondValues = {-1, 2};
     EXPECT_EQ(out.pointColor(surface, 0), divergingColor(-0.5));
     EXPECT_EQ(out.pointColor(surface, 1), divergingColor(1));
-    look.caps = CapStyle::value;
+    look.caps = SurfaceCapStyle::value;
     look.coloring = Coloring::cell;
     chooseSurfaceLook(*field, look, planes, out);
     EXPECT_TRUE(out.levels.back().caps && out.colorsCapPoints() && !out.colorsPoints());

@@ -80,14 +80,14 @@ TEST(Expressions, HaveOneUnitInAProduct) {
 
 TEST(Expressions, HaveUnitsOnlyWhereAnAngleIsExpected) {
     for (const char* text : {"0.1°", "0.1 deg", "2rad", "1+3°", "(1°)*2"}) {
-        const auto value = evaluate(text);
+        const auto value = evaluateNumber(text);
         ASSERT_FALSE(value) << text;
         EXPECT_NE(value.error().message.find("a number without a unit is expected"), std::string::npos)
             << value.error().message;
     }
-    EXPECT_NE(evaluate("0.1°").error().message.find("position 4"), std::string::npos);
-    EXPECT_DOUBLE_EQ(*evaluate("2*sin(30°)"), 1);
-    EXPECT_FALSE(evaluate("2*sin(30°)°"));
+    EXPECT_NE(evaluateNumber("0.1°").error().message.find("position 4"), std::string::npos);
+    EXPECT_DOUBLE_EQ(*evaluateNumber("2*sin(30°)"), 1);
+    EXPECT_FALSE(evaluateNumber("2*sin(30°)°"));
 }
 
 struct Mistake {
@@ -97,7 +97,7 @@ struct Mistake {
 class Mistakes : public testing::TestWithParam<Mistake> {};
 
 TEST_P(Mistakes, AreExplained) {
-    const auto result = evaluate(GetParam().text);
+    const auto result = evaluateNumber(GetParam().text);
     ASSERT_FALSE(result) << *result;
     EXPECT_EQ(result.error().code, ErrorCode::bad_expression);
     EXPECT_NE(result.error().message.find(GetParam().says), std::string::npos) << result.error().message;
@@ -118,14 +118,14 @@ INSTANTIATE_TEST_SUITE_P(
 
 TEST(Expression, DeepNestingIsRefusedNotFollowed) {
     for (const char c : {'(', '-', '+'}) {
-        const auto result = evaluate(std::string(999, c));
+        const auto result = evaluateNumber(std::string(999, c));
         ASSERT_FALSE(result);
         EXPECT_NE(result.error().message.find("nests too deeply"), std::string::npos) << result.error().message;
     }
-    EXPECT_FALSE(evaluate(std::string(100'000, '1')));
+    EXPECT_FALSE(evaluateNumber(std::string(100'000, '1')));
     std::string powers = "1";
     for (int i = 0; i < 200; ++i) powers += "^1";
-    EXPECT_FALSE(evaluate(powers));
+    EXPECT_FALSE(evaluateNumber(powers));
 }
 
 TEST(RotationAngles, IsReadFromPlanesAndAngles) {

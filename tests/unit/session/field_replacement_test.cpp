@@ -78,7 +78,7 @@ TEST(FieldReplacement, AFinerLevelKeepsSettingsAndHistory) {
     line(session, "set spacing=0.37");
     press(session, "ru");
     const Session before = session;
-    replaceField(session, coarse, fine, FieldReplacement::finer);
+    replaceField(session, coarse, fine, FieldReplacementKind::finer);
     EXPECT_EQ(session.revision, before.revision + 1);
     EXPECT_EQ(session.undoSteps.size(), before.undoSteps.size());
     EXPECT_EQ(session.redoSteps.size(), before.redoSteps.size());
@@ -102,7 +102,7 @@ TEST(FieldReplacement, SlicesThatSpanTheFieldSpanTheFinerOne) {
     Session session;
     load(session, coarse);
     ASSERT_TRUE(slicesSpanObject(session.current));
-    replaceField(session, coarse, fine, FieldReplacement::finer);
+    replaceField(session, coarse, fine, FieldReplacementKind::finer);
     EXPECT_NE(slicing::initialSliceExtent(fine), slicing::initialSliceExtent(coarse));
     EXPECT_TRUE(slicesSpanObject(session.current));
 }
@@ -114,7 +114,7 @@ TEST(FieldReplacement, AFieldThatIsNotShownIsReplacedAmongTheLoadedOnes) {
     line(session, "polytope 24-cell");
     const State shown = session.current;
     const std::uint64_t revision = session.revision;
-    replaceField(session, coarse, fine, FieldReplacement::finer);
+    replaceField(session, coarse, fine, FieldReplacementKind::finer);
     EXPECT_EQ(session.current, shown);
     EXPECT_EQ(session.revision, revision);
     EXPECT_EQ(session.loaded.at("run"), fine);
@@ -128,7 +128,7 @@ TEST(FieldReplacement, AnotherRegionHasInitialLevelsAfterAFinerLevel) {
     const slicing::Object coarse = objectOf(levelOfImage(2, 2, 6)), fine = objectOf(level);
     Session session;
     load(session, coarse);
-    replaceField(session, coarse, fine, FieldReplacement::finer);
+    replaceField(session, coarse, fine, FieldReplacementKind::finer);
     EXPECT_EQ(session.current.look.field.levels, std::vector<double>{3});
     load(session, objectOf(levelOfImage(0, 0, 10)));
     EXPECT_EQ(session.current.look.field.levels, std::vector<double>{5}) << "nobody has changed them";

@@ -268,11 +268,11 @@ TEST(History, TheOlderHalfIsForgotten) {
         commitUndoStep(session, std::move(next), limits);
     }
     EXPECT_EQ(historyMemoryWithoutObjects(session), 7 * sizeof(State));
-    forgetOlderHalf(session);
+    forgetOlderUndoSteps(session);
     ASSERT_EQ(session.undoSteps.size(), 3U);
     EXPECT_EQ(session.undoSteps.front().slices.focus, 4);
     EXPECT_EQ(session.current.slices.focus, 7);
-    for (int i = 0; i < 5; ++i) forgetOlderHalf(session);
+    for (int i = 0; i < 5; ++i) forgetOlderUndoSteps(session);
     EXPECT_TRUE(session.undoSteps.empty());
 }
 

@@ -359,7 +359,7 @@ TEST(RandomHistory, TheRevisionCountsTheChangesAndUndoLeadsBack) {
                 advanceAndCheck(session, seconds);
             } else if (forgets && happens(0.05, random)) {
                 log += "\nforget";
-                forgetOlderHalf(session);
+                forgetOlderUndoSteps(session);
             } else {
                 const Command& command = oneOf(commands, random);
                 const auto* key = std::get_if<KeyPress>(&command);

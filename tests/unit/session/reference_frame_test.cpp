@@ -184,7 +184,7 @@ TEST(ReferenceFrames, ImagesOfLargeObjectsAreDeferred) {
     for (; needsLoading(session, both, Limits{}, loader, outcome) && images < 5; ++images) {
         EXPECT_EQ(session, before);
         EXPECT_FALSE(loader.pendingNeedsFile());
-        EXPECT_GT(loader.memoryNeeded(), slicing::memoryOf(support::shared("120-cell")));
+        EXPECT_GT(loader.estimatedMemory(), slicing::memoryOf(support::shared("120-cell")));
         ObjectLoader moved = std::move(loader);  // a server also moves the loader to another thread and back
         moved.completePending();
         loader = std::move(moved);

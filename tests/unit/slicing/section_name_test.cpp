@@ -106,7 +106,7 @@ const Sections kSections[] = {
 
 // The sections of regular polytopes through their vertices have the names in Coxeter, Regular Polytopes, table V, which
 // lists the vertices. Coxeter's irregular sections have no name here.
-TEST(SectionNamePair, ofTheRegularPolytopesThroughTheirVertices) {
+TEST(SliceAndHullNames, ofTheRegularPolytopesThroughTheirVertices) {
     SectionNamer namer;
     for (const Sections& sections : kSections) {
         SCOPED_TRACE(std::string(sections.polytope) + " beginning with an element of dimension " +
@@ -132,7 +132,7 @@ TEST(SectionNamePair, ofTheRegularPolytopesThroughTheirVertices) {
 
 // Between the vertices of a polytope, sections have names, too. A polyhedron over a regular polygon (such as a prism)
 // has its name at any height. Other polyhedra have a name only if they are uniform.
-TEST(SectionNamePair, betweenTheVerticesAreThoseOfUniformSections) {
+TEST(SliceAndHullNames, betweenTheVerticesAreThoseOfUniformSections) {
     struct Row {
         const char* polytope;
         int first;
@@ -158,7 +158,7 @@ TEST(SectionNamePair, betweenTheVerticesAreThoseOfUniformSections) {
 
 // The section in the hyperplane of a cell has the name of the cell. The names of cells are found from their faces,
 // without the class under test.
-TEST(SectionNamePair, inTheHyperplaneOfACellAreTheNamesOfTheCells) {
+TEST(SliceAndHullNames, inTheHyperplaneOfACellAreTheNamesOfTheCells) {
     Names polytopes{"snub 24-cell", "rectified 600-cell", "runcitruncated 16-cell", "omnitruncated 24-cell"};
     for (const polytopes::NamedPolyhedron& solid : polytopes::namedPolyhedra()) {
         if (isConvex(solid)) polytopes.push_back(std::string(solid.name) + " prism");
@@ -188,7 +188,7 @@ TEST(SectionNamePair, inTheHyperplaneOfACellAreTheNamesOfTheCells) {
 
 // Catalan solids and duals of antiprisms are named. The middle section of a prism over a polyhedron is this polyhedron.
 // Each section of a pyramid between the base and the apex is similar to the base.
-TEST(SectionNamePair, areThoseOfCatalanSolidsAndOfDualsOfAntiprisms) {
+TEST(SliceAndHullNames, areThoseOfCatalanSolidsAndOfDualsOfAntiprisms) {
     for (const char* solid :
          {"triakis tetrahedron", "rhombic dodecahedron", "triakis octahedron", "tetrakis hexahedron",
           "deltoidal icositetrahedron", "disdyakis dodecahedron", "pentagonal icositetrahedron",
@@ -204,7 +204,7 @@ TEST(SectionNamePair, areThoseOfCatalanSolidsAndOfDualsOfAntiprisms) {
     }
 }
 
-TEST(SectionNamePair, areThoseOfPrismsAndCuboidsOfAnyHeight) {
+TEST(SliceAndHullNames, areThoseOfPrismsAndCuboidsOfAnyHeight) {
     // Every section w = const of a duoprism is a prism over its first polygon, the one with fewer sides.
     for (const auto& [duoprism, name] : {std::pair{"3,5-duoprism", "triangular prism"},
                                          {"4,5-duoprism", "cuboid"},
@@ -235,7 +235,7 @@ SliceSet sliceWith(const Points& points, const std::vector<std::array<std::uint3
     return slice;
 }
 
-TEST(SectionNamePair, areThoseOfRightPolyhedraOverRegularPolygonsOnly) {
+TEST(SliceAndHullNames, areThoseOfRightPolyhedraOverRegularPolygonsOnly) {
     // The base is a pentagon with the radius 1 in the plane z = 0. Over it stand an antiprism, a pyramid and a
     // bipyramid.
     constexpr std::uint32_t kSides = 5;
@@ -281,7 +281,7 @@ TEST(SectionNamePair, areThoseOfRightPolyhedraOverRegularPolygonsOnly) {
     }
 }
 
-TEST(SectionNamePair, dependNeitherOnTheOrientationNorOnTheSize) {
+TEST(SliceAndHullNames, dependNeitherOnTheOrientationNorOnTheSize) {
     std::mt19937 random(41);
     std::normal_distribution<double> normal;
     SectionNamer namer;
@@ -302,7 +302,7 @@ TEST(SectionNamePair, dependNeitherOnTheOrientationNorOnTheSize) {
     }
 }
 
-TEST(SectionNamePair, areFoundForEachSliceOfASet) {
+TEST(SliceAndHullNames, areFoundForEachSliceOfASet) {
     const polytopes::Polytope& p = named("8-cell");
     SliceSet slices;
     CellComplexSlicer().slice(p, ontoW({1, 1, 1, 1}), {-5, 11, 0.5}, slices);
@@ -313,7 +313,7 @@ TEST(SectionNamePair, areFoundForEachSliceOfASet) {
                             "truncated tetrahedron", "tetrahedron", "tetrahedron", "point", ""}));
 }
 
-TEST(SectionNamePair, areNotThoseOfStretchedSolids) {
+TEST(SliceAndHullNames, areNotThoseOfStretchedSolids) {
     const polytopes::Polytope& p = named("600-cell");
     SliceSet cut = cutAt(p, beginningWith(p, 0), 0.9 * p.circumradius);
     ASSERT_EQ(nameOfSlice(cut), "icosahedron");
@@ -358,7 +358,7 @@ Points verticesOf(std::string_view name) {
 // Solids with turned caps do not have the name of the original solid. If caps of these solids are turned by half of
 // their symmetry, the results have the same faces and the same circumradius: Johnson's solids J27, J34, J37, J72 and
 // J73.
-TEST(SectionNamePair, areNotThoseOfSolidsWithTurnedCaps) {
+TEST(SliceAndHullNames, areNotThoseOfSolidsWithTurnedCaps) {
     struct Row {
         const char *solid, *axis;  // the axis runs through the first vertex of the solid with the name `axis`
         int order;                 // the order of the symmetry around the axis
@@ -390,7 +390,7 @@ TEST(SectionNamePair, areNotThoseOfSolidsWithTurnedCaps) {
     }
 }
 
-TEST(SectionNamePair, areThoseOfRegularStars) {
+TEST(SliceAndHullNames, areThoseOfRegularStars) {
     std::size_t stars = 0;
     for (const polytopes::NamedPolyhedron& solid : polytopes::namedPolyhedra()) {
         if (isConvex(solid)) continue;
@@ -410,7 +410,7 @@ TEST(SectionNamePair, areThoseOfRegularStars) {
     EXPECT_EQ(stars, 4U);
 }
 
-TEST(SectionNamePair, areThoseOfPrismsOverStarPolygons) {
+TEST(SliceAndHullNames, areThoseOfPrismsOverStarPolygons) {
     // In the name of the duoprism, the polygon with fewer sides comes first. This polygon is the base of the sections.
     for (const auto& [duoprism, name] : {std::pair{"5/2,7-duoprism", "pentagrammic prism"},
                                          {"7/2,8-duoprism", "7/2-gonal prism"},
@@ -420,7 +420,7 @@ TEST(SectionNamePair, areThoseOfPrismsOverStarPolygons) {
     }
 }
 
-TEST(SectionNamePair, areNotThoseOfCompounds) {
+TEST(SliceAndHullNames, areNotThoseOfCompounds) {
     // A compound of two tetrahedra has the vertices of a cube, but not its name.
     SliceSet slice = sliceOf(verticesOf("cube"));
     ASSERT_EQ(nameOfSlice(slice), "cube");

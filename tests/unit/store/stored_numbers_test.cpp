@@ -47,7 +47,7 @@ TEST(StoredNumbers, OfEnumeratorsStayTheSame) {
 TEST(StoredNumbers, OfPlanesStayTheSame) {
     Numbers numbers;
     for (const geometry::Plane plane : geometry::kPlanes)
-        numbers.emplace_back(geometry::name(plane), static_cast<unsigned>(plane));
+        numbers.emplace_back(geometry::planeName(plane), static_cast<unsigned>(plane));
     EXPECT_EQ(numbers, (Numbers{{"xy", 0}, {"xz", 1}, {"xw", 2}, {"yz", 3}, {"yw", 4}, {"zw", 5}}));
 }
 

@@ -69,7 +69,7 @@ inline void applyRandomCommands(session::Session& session, std::mt19937& random,
                 set.plain.valueOf<double>("azimuth") = angle(random);
                 set.plain.valueOf<double>("zoom") = 1.5;
                 set.plain.valueOf<scene::Coloring>("color") = static_cast<scene::Coloring>(random() % 7);
-                set.plain.valueOf<scene::CapStyle>("caps") = static_cast<scene::CapStyle>(random() % 3);
+                set.plain.valueOf<scene::SurfaceCapStyle>("caps") = static_cast<scene::SurfaceCapStyle>(random() % 3);
                 set.plain.valueOf<scene::Background>("background") =
                     static_cast<scene::Background>(random() % scene::kBackgrounds.size());
                 set.hidden = {{0}};

@@ -181,7 +181,7 @@ TEST_P(BadMessages, GetTheirError) {
 /// Returns the names of all views in the form of the schema: "oval", "single" or "matrix".
 std::string quotedViews() {
     std::vector<std::string> quoted;
-    for (const scene::ViewRow& row : scene::kViews) quoted.push_back('"' + std::string(row.name) + '"');
+    for (const scene::ViewTableRow& row : scene::kViews) quoted.push_back('"' + std::string(row.name) + '"');
     return text::joinedWithOr(std::vector<std::string_view>(quoted.begin(), quoted.end()));
 }
 

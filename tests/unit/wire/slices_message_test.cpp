@@ -60,7 +60,7 @@ TEST(SlicesMessage, SaysWhichCellColorsAFaceInTheHyperplane) {
 }
 
 TEST(SlicesMessage, HasNoNegativeZeroInPositions) {
-    for (const scene::ViewRow& view : scene::kViews) {
+    for (const scene::ViewTableRow& view : scene::kViews) {
         SCOPED_TRACE(view.name);
         const Picture picture = pictureOf({"view " + std::string(view.name), "project perspective"});
         const std::string text = messageOf(picture, Encoding::json);

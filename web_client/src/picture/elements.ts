@@ -31,7 +31,7 @@ export class SliceElements {
     cornerEdges = new Uint32Array(0);
     normals = new Float32Array(0); // x, y, z of each face's outward normal
     // The edges of the slice that is being written, grouped by the smaller vertex index of each edge.
-    readonly edgesByVertex = new EdgeBuckets();
+    readonly edgesByVertex = new EdgesByVertex();
     private readonly spare: SliceElementRanges[] = []; // unused objects, kept for pictures with more slices
 
     /** Replaces the elements by the elements of a new picture. */
@@ -131,7 +131,7 @@ function setRange(range: IndexRange, begin: number, end: number): void {
  * Groups the edges of a slice by one of their vertices, with a counting sort. `vertexOf` returns this vertex for an
  * edge. The edges of vertex v are items[begin[v]] … items[begin[v + 1] − 1].
  */
-export class EdgeBuckets {
+export class EdgesByVertex {
     begin = new Uint32Array(0);
     items = new Uint32Array(0);
 

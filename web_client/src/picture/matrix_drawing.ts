@@ -21,7 +21,7 @@ const kFocusReach = 0.12;
 const kFocusWidth = 0.0028;
 
 /** Data for drawing a panel that are the same for all panels of a picture. */
-interface PanelDrawingContext {
+interface MatrixPanelDrawingContext {
     pen: CanvasRenderingContext2D;
     matrix: SectionMatrix;
     scene: SceneDescription;
@@ -78,7 +78,7 @@ function drawFocusPoint(
     pen.lineCap = "butt";
 }
 
-function drawAxisNames({ pen, matrix, scene, viewport }: PanelDrawingContext): void {
+function drawAxisNames({ pen, matrix, scene, viewport }: MatrixPanelDrawingContext): void {
     const panel = matrix.panel * viewport.height;
     const digits = setFontAndMeasureDigits(pen, kNameHeight * panel);
     const axes = kAxes.map((name, axis) => ({ name, color: scene.colors.axes[axis]!, ...axisNameCenter(matrix, axis, viewport) }));
@@ -95,7 +95,7 @@ function drawAxisNames({ pen, matrix, scene, viewport }: PanelDrawingContext): v
     }
 }
 
-function drawPanel(panel: MatrixPanel, context: PanelDrawingContext): void {
+function drawPanel(panel: MatrixPanel, context: MatrixPanelDrawingContext): void {
     const { pen, matrix, scene, viewport } = context;
     const { shown, colors } = scene;
     const box = boxOf(panel);
@@ -113,7 +113,7 @@ function drawPanel(panel: MatrixPanel, context: PanelDrawingContext): void {
 }
 
 type Box = ReturnType<typeof boxOf>;
-type Pixel = [x: number, y: number];
+type PixelPosition = [x: number, y: number];
 
 function boxOf({ x, y, half }: MatrixPanel) {
     const [left, top, right, bottom] = [x - half, y - half, x + half, y + half].map(Math.round) as Quadruple;
@@ -123,7 +123,7 @@ function boxOf({ x, y, half }: MatrixPanel) {
 type Quadruple = [number, number, number, number];
 
 /** Fills the section of a convex polytope. Does nothing if the edges of the section do not form one closed polygon. */
-function drawFill({ section: { boundary } }: MatrixPanel, points: Pixel[], { pen, scene }: PanelDrawingContext): void {
+function drawFill({ section: { boundary } }: MatrixPanel, points: PixelPosition[], { pen, scene }: MatrixPanelDrawingContext): void {
     // The opacity is 1 if the polytope may be nonconvex (see `opacity` in protocol/README.md).
     const isConvex = scene.opacity < 1;
     if (boundary.length === 0 || !isConvex) return;
@@ -138,7 +138,7 @@ function drawFill({ section: { boundary } }: MatrixPanel, points: Pixel[], { pen
  * Draws two lines through the focus point, along the two axes of the panel. Along one line, the panel's plane meets the
  * planes of the other panels in its column; along the other line, those in its row.
  */
-function drawFocusLines(panel: MatrixPanel, box: Box, { pen, matrix, scene, viewport }: PanelDrawingContext): void {
+function drawFocusLines(panel: MatrixPanel, box: Box, { pen, matrix, scene, viewport }: MatrixPanelDrawingContext): void {
     const { row, column, section } = panel;
     const [first, second] = section.axes;
     const [x, y] = panel.pixelOf([matrix.point[first]!, matrix.point[second]!]);
@@ -154,7 +154,7 @@ function drawFocusLines(panel: MatrixPanel, box: Box, { pen, matrix, scene, view
     }
 }
 
-function drawContours(panel: MatrixPanel, { pen, matrix, scene, viewport }: PanelDrawingContext): void {
+function drawContours(panel: MatrixPanel, { pen, matrix, scene, viewport }: MatrixPanelDrawingContext): void {
     pen.globalAlpha = 1;
     pen.lineWidth = Math.max(1, matrix.line_width * viewport.height);
     pen.lineCap = pen.lineJoin = "round";
@@ -171,8 +171,8 @@ function drawContours(panel: MatrixPanel, { pen, matrix, scene, viewport }: Pane
 
 function drawEdges(
     { section }: MatrixPanel,
-    points: Pixel[],
-    { pen, matrix, scene, viewport, highlighted }: PanelDrawingContext,
+    points: PixelPosition[],
+    { pen, matrix, scene, viewport, highlighted }: MatrixPanelDrawingContext,
 ): void {
     const opacities = [0, scene.faded, 1];
     pen.lineWidth = Math.max(1, matrix.line_width * viewport.height);
@@ -190,7 +190,7 @@ function drawEdges(
     pen.lineCap = "butt";
 }
 
-function drawPoints({ section }: MatrixPanel, points: Pixel[], context: PanelDrawingContext): void {
+function drawPoints({ section }: MatrixPanel, points: PixelPosition[], context: MatrixPanelDrawingContext): void {
     const { pen, matrix, scene, viewport, highlighted, counts } = context;
     const { balls, of, seen } = section;
     const opacities = [0, scene.faded, 1];

@@ -5,7 +5,7 @@ import type { SceneDescription, SectionMatrix, Viewport } from "@oval4d/protocol
 import type { ElementHit, LevelHit } from "./hit_test";
 import type { MatrixPanel } from "./matrix_panel";
 
-type Pixel = readonly [x: number, y: number];
+type PixelPosition = readonly [x: number, y: number];
 
 /**
  * Finds what is drawn at the pixel, or within `reach` pixels of it: the nearest point of the section; without a point,
@@ -16,7 +16,7 @@ export function hitInPanel(
     matrix: SectionMatrix,
     { shown }: SceneDescription,
     { height }: Viewport,
-    pixel: Pixel,
+    pixel: PixelPosition,
     reach: number,
 ): ElementHit | LevelHit | undefined {
     const { of, points, edges, seen, balls } = panel.section;
@@ -42,7 +42,7 @@ export function hitInPanel(
 }
 
 /** The nearest contour within `reach` pixels of a pixel; undefined if there is none. */
-function contourAt(panel: MatrixPanel, { point }: SectionMatrix, pixel: Pixel, reach: number): LevelHit | undefined {
+function contourAt(panel: MatrixPanel, { point }: SectionMatrix, pixel: PixelPosition, reach: number): LevelHit | undefined {
     const { axes, contours = [] } = panel.section;
     let found: LevelHit | undefined;
     let nearest = reach;
@@ -62,13 +62,13 @@ function contourAt(panel: MatrixPanel, { point }: SectionMatrix, pixel: Pixel, r
 }
 
 /** The distance of a pixel from a line segment. */
-export function distanceFromSegment(pixel: Pixel, from: Pixel, to: Pixel): number {
+export function distanceFromSegment(pixel: PixelPosition, from: PixelPosition, to: PixelPosition): number {
     const part = nearestSegmentParameter(pixel, from, to);
     return Math.hypot(from[0] + part * (to[0] - from[0]) - pixel[0], from[1] + part * (to[1] - from[1]) - pixel[1]);
 }
 
 /** The position on a line segment that is nearest to a pixel: 0 at the segment's start, 1 at its end. */
-function nearestSegmentParameter([x, y]: Pixel, [fromX, fromY]: Pixel, [toX, toY]: Pixel): number {
+function nearestSegmentParameter([x, y]: PixelPosition, [fromX, fromY]: PixelPosition, [toX, toY]: PixelPosition): number {
     const [dx, dy] = [toX - fromX, toY - fromY];
     const along = ((x - fromX) * dx + (y - fromY) * dy) / (dx * dx + dy * dy || 1);
     return Math.min(1, Math.max(0, along));

@@ -6,7 +6,7 @@
 
 import type { Parts } from "@oval4d/protocol";
 
-import { EdgeBuckets, ensureCapacity, type SliceElements, type SliceElementRanges } from "./elements";
+import { EdgesByVertex, ensureCapacity, type SliceElements, type SliceElementRanges } from "./elements";
 import { kQuadTriangles } from "./shape_buffers";
 import { sortByKey } from "./sort";
 import type { ViewCamera } from "./view_camera";
@@ -24,7 +24,7 @@ export class PaintersOrder {
     private rank = new Uint32Array(0); // the index of each vertex in `order`
     private readonly sliceRanges: SliceElementRanges[] = []; // the slices from far to near
     // The edges of a slice, grouped by the index in `order` of each edge's farther vertex.
-    private readonly edgesByRank = new EdgeBuckets();
+    private readonly edgesByRank = new EdgesByVertex();
     private out = new Uint32Array(0);
     private used = 0;
 

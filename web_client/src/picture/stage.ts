@@ -21,7 +21,7 @@ export interface StageEvents {
 }
 
 /** The server's limits on the size of pictures. */
-export type SizeLimits = Partial<Pick<Limits, "min_side" | "max_width" | "max_height" | "max_pixels">>;
+export type PictureSizeLimits = Partial<Pick<Limits, "min_side" | "max_width" | "max_height" | "max_pixels">>;
 
 const kMaxPixels = 4_000_000; // the most pixels of a picture on the page; more cost time without visible benefit
 const kPrintPixels = 6_000_000; // the most pixels of a printed picture: about 300 dots per inch on a sheet of A4
@@ -34,7 +34,7 @@ const kLeastTextInFullScreen = 0.02; // the least height of texts in full screen
  * The largest factor by which a picture of this size can be enlarged within the limits; less than 1 if its size exceeds
  * a limit.
  */
-function largestScale({ width, height }: Viewport, limits: SizeLimits, maxPixels: number, maxSide: number): number {
+function largestScale({ width, height }: Viewport, limits: PictureSizeLimits, maxPixels: number, maxSide: number): number {
     return Math.min(
         Math.sqrt(Math.min(maxPixels, limits.max_pixels ?? Infinity) / (width * height)),
         Math.min(maxSide, limits.max_width ?? Infinity) / width,
@@ -57,7 +57,7 @@ export class Stage {
     // A message through this channel that is sent during a drawing arrives after the browser has rendered the page.
     private readonly afterRendering = new MessageChannel();
     private scheduled = false;
-    private limits: SizeLimits = {};
+    private limits: PictureSizeLimits = {};
 
     constructor(
         private readonly root: HTMLElement,
@@ -149,7 +149,7 @@ export class Stage {
     }
 
     /** Sets the server's limits on the size of pictures. */
-    setSizeLimits(limits: SizeLimits): void {
+    setSizeLimits(limits: PictureSizeLimits): void {
         this.limits = limits;
         this.updateSize();
     }

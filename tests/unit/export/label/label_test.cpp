@@ -48,7 +48,7 @@ TEST(Tessellate, anOutlineIsAllThatIsWoundAround) {
 }
 
 TEST(Letters, areCenteredAndOneHigh) {
-    const TextOutlines text = letteringOf({"HIH"});
+    const TextOutlines text = textOutlinesOf({"HIH"});
     EXPECT_NEAR(text.size.y, 1, 1e-9);
     glm::dvec2 least(1e300);
     for (const Contour& contour : text.contours) {
@@ -56,9 +56,9 @@ TEST(Letters, areCenteredAndOneHigh) {
     }
     EXPECT_NEAR(least.x, -text.size.x / 2, 1e-9);
     EXPECT_EQ(text.contours.size(), 3U);
-    EXPECT_EQ(letteringOf({"8"}).contours.size(), 3U);       // the outline and two holes
-    EXPECT_EQ(letteringOf({"\u2212"}).contours.size(), 1U);  // the minus sign
-    EXPECT_GT(letteringOf({"A", "A"}).size.y, 2);
+    EXPECT_EQ(textOutlinesOf({"8"}).contours.size(), 3U);       // the outline and two holes
+    EXPECT_EQ(textOutlinesOf({"\u2212"}).contours.size(), 1U);  // the minus sign
+    EXPECT_GT(textOutlinesOf({"A", "A"}).size.y, 2);
 }
 
 TEST(Label, isCutIntoAFaceAndTheBodyStaysClosed) {
@@ -80,7 +80,7 @@ TEST(Label, isCutIntoAFaceAndTheBodyStaysClosed) {
             ++cut;
             expectPrintable(mesh);
             // The letters lie inside the body, so the bounding box stays the same, and the volume decreases.
-            EXPECT_EQ(boxOf(mesh).size(), boxOf(plain).size());
+            EXPECT_EQ(boundingBoxOf(mesh).size(), boundingBoxOf(plain).size());
             EXPECT_LT(volumeOf(mesh), volumeOf(plain));
             double ink = 0;
             for (std::size_t t = 0; t < mesh.triangles.size(); ++t) ink += mesh.cells[t] == kNoCell ? 1 : 0;
@@ -114,9 +114,9 @@ TEST(Label, aPlateIsABodyOfItsOwn) {
         const RoundingGrid grid(size, size);
         const Mesh plate = LabelText("omnitruncated 120-cell", "w = 1.25").makeLabelPlate(size, grid);
         expectPrintable(plate);
-        const glm::dvec3 extent = boxOf(plate).size();
+        const glm::dvec3 extent = boundingBoxOf(plate).size();
         EXPECT_NEAR(extent.z, 2, 0.01);
-        EXPECT_LE(boxOf(plate).max.y, 0);
+        EXPECT_LE(boundingBoxOf(plate).max.y, 0);
         EXPECT_LT(volumeOf(plate), extent.x * extent.y * extent.z);
         EXPECT_GT(volumeOf(plate), 0.85 * extent.x * extent.y * extent.z);
     }

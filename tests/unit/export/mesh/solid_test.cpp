@@ -98,7 +98,7 @@ TEST(Solid, ofATesseractIsTheCube) {
     expectPrintable(mesh);
     EXPECT_EQ(mesh.points.size(), 8U);
     EXPECT_EQ(mesh.triangles.size(), 12U);
-    const glm::dvec3 size = boxOf(mesh).size();
+    const glm::dvec3 size = boundingBoxOf(mesh).size();
     // The tesseract has the circumradius 2 and edges of length 2.
     for (int axis = 0; axis < 3; ++axis) EXPECT_NEAR(size[axis], kSize / 2, 1e-3);
 }
@@ -202,7 +202,7 @@ TEST(OuterSurface, ofStarPolychoraHoldsThePlacesThatTheFacesWindAround) {
         const SliceSet s = cutAt(p, randomRotation(random), 0.1 * p.circumradius);
         const Mesh mesh = solid(p, s);
         expectPrintable(mesh);
-        const BoundingBox box = boxOf(mesh);
+        const BoundingBox box = boundingBoxOf(mesh);
         std::uniform_real_distribution<double> part(0, 1);
         constexpr int kPlaces = support::kSanitized ? 600 : 6000;
         int inside = 0;
@@ -295,7 +295,7 @@ TEST(Skeleton, hasTheVolumeOfItsBallsAndBars) {
                                                // ball
     const double bar = pi * (30 - 2 * std::sqrt(8.0)) - 2 * pi * height * height * (9 - height) / 3;
     EXPECT_NEAR(volumeOf(mesh), 8 * 4.0 / 3 * pi * 27 + 12 * bar, 20);
-    const double expected = estimateTriangles(s, scaleOf(p), thick) / (0.25 * 0.25);
+    const double expected = estimateSkeletonTriangles(s, scaleOf(p), thick) / (0.25 * 0.25);
     EXPECT_NEAR(static_cast<double>(mesh.triangles.size()) / expected, 1, 0.25);
 }
 
@@ -313,14 +313,14 @@ TEST(Mesh, theCheckSeesWhatIsOpenDoubledReversedOrTouching) {
     for (const auto& t : cube.triangles) doubled.triangles.push_back(t);
     EXPECT_FALSE(isClosedManifold(doubled));
     Mesh touching = cube;  // will get a second cube that shares one corner
-    for (const auto& point : cube.points) touching.points.push_back(point + boxOf(cube).size());
+    for (const auto& point : cube.points) touching.points.push_back(point + boundingBoxOf(cube).size());
     for (const auto& t : cube.triangles) touching.triangles.push_back({t[0] + 8, t[1] + 8, t[2] + 8});
     EXPECT_TRUE(isClosedManifold(touching));
     const auto at = [&](const glm::dvec3& place) {
         return static_cast<std::uint32_t>(std::ranges::find(touching.points, place) - touching.points.begin());
     };
-    const auto shared = at(boxOf(cube).max);
-    const auto copy = at(boxOf(cube).min + boxOf(cube).size());
+    const auto shared = at(boundingBoxOf(cube).max);
+    const auto copy = at(boundingBoxOf(cube).min + boundingBoxOf(cube).size());
     ASSERT_EQ(shared, copy);  // both searches find the first point at this position
     for (auto& t : touching.triangles) {
         for (auto& corner : t) {

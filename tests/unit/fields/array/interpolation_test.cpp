@@ -28,7 +28,7 @@ TEST(Interpolation, GivesTheSameBitsWithAllInstructions) {
             points.y[18] = std::numeric_limits<float>::infinity();
             Points other = points;
             const SampledLattice from{lattice, samples.data()};
-            const auto fastest = fastestInstructions();
+            const auto fastest = fastestInstructionSet();
             interpolate(from, points.batch(), points.values, InstructionSet::portable);
             interpolate(from, other.batch(), other.values, fastest);
             EXPECT_EQ(bitsOf(points.values), bitsOf(other.values));
@@ -52,14 +52,14 @@ TEST(Interpolation, DoesNotDependOnTheOtherPoints) {
     const auto samples = randomSamples(shape, 0.02, random);
     const SampledLattice from{lattice, samples.data()};
     Points all = randomPoints({}, 61, random);
-    interpolate(from, all.batch(), all.values, fastestInstructions());
+    interpolate(from, all.batch(), all.values, fastestInstructionSet());
     for (std::size_t i = 0; i < all.size(); ++i) {
         Points one;
         one.add(all[i]);
-        interpolate(from, one.batch(), one.values, fastestInstructions());
+        interpolate(from, one.batch(), one.values, fastestInstructionSet());
         EXPECT_EQ(std::bit_cast<std::uint32_t>(one.values[0]), std::bit_cast<std::uint32_t>(all.values[i]));
     }
-    interpolate(from, {}, {}, fastestInstructions());
+    interpolate(from, {}, {}, fastestInstructionSet());
 }
 
 }  // namespace

@@ -31,7 +31,7 @@ double realValue(const Tape& tape, const glm::dvec4& point) {
         if (next.operation == Operation::constant || next.form == OperandForm::number_and_register) a = next.number;
         if (next.form == OperandForm::register_and_number || next.operation == Operation::integer_power)
             b = next.number;
-        registers[next.result] = apply(next.operation, a, b);
+        registers[next.result] = applyOperation(next.operation, a, b);
     }
     return registers[Tape::kResult];
 }

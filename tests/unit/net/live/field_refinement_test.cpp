@@ -51,7 +51,7 @@ class FieldRefinementTest : public testing::Test {
     }
     /// Calls FieldRefinement::update() on the strand.
     void update() {
-        asio::post(strand, [this] { refinement->update(); });
+        asio::post(strand, [this] { refinement->startOrStopAsNeeded(); });
         server.settle();
     }
     /// Answers the reading that began last.

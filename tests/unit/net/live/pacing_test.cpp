@@ -34,7 +34,7 @@ TEST(PicturePacing, UnwrittenPicturesDoNotExpire) {
     PicturePacing pacing;
     pacing.recordSent(1);
     pacing.recordSent(2);
-    EXPECT_FALSE(pacing.deadline(1s));
+    EXPECT_FALSE(pacing.assumeShownTime(1s));
     pacing.assumeShown(kStart + 1h, 1s);
     EXPECT_FALSE(pacing.maySendMore());
 }
@@ -45,12 +45,12 @@ TEST(PicturePacing, WrittenPicturesExpireInOrder) {
     pacing.recordSent(2);
     pacing.recordWritten(1, kStart);
     pacing.recordWritten(2, kStart + 300ms);
-    EXPECT_EQ(pacing.deadline(1s), kStart + 1s);
+    EXPECT_EQ(pacing.assumeShownTime(1s), kStart + 1s);
     pacing.assumeShown(kStart + 999ms, 1s);
     EXPECT_FALSE(pacing.maySendMore());
     pacing.assumeShown(kStart + 1s, 1s);
     EXPECT_TRUE(pacing.maySendMore());
-    EXPECT_EQ(pacing.deadline(1s), kStart + 1300ms);
+    EXPECT_EQ(pacing.assumeShownTime(1s), kStart + 1300ms);
 }
 
 TEST(PicturePacing, ASkippedRevisionIsNewestButNotInFlight) {

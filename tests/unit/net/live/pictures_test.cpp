@@ -54,8 +54,8 @@ TEST(SnapshotPictureCache, FindsPicturesByKindRevisionAndQuality) {
     EXPECT_NE(pictures.find(kGeometry, 3, Quality::draft), nullptr);
     EXPECT_EQ(pictures.find(kFrames, 3, Quality::full), nullptr);
     EXPECT_EQ(pictures.find(kFrames, 2, Quality::draft), nullptr);
-    EXPECT_EQ(pictures.find(3, Quality::draft), draft);
-    EXPECT_EQ(pictures.find(3, Quality::full), nullptr);
+    EXPECT_EQ(pictures.findSnapshot(3, Quality::draft), draft);
+    EXPECT_EQ(pictures.findSnapshot(3, Quality::full), nullptr);
 }
 
 TEST(SnapshotPictureCache, ReplacesOlderPicturesByNewerOnes) {

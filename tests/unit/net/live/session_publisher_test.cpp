@@ -49,7 +49,7 @@ class SessionPublisherTest : public testing::Test {
         auto peer = std::make_shared<RecordingPeer>(server.account);
         if (acknowledges) {
             peer->whenPictureArrives = [this, raw = peer.get()](std::uint64_t revision) {
-                post([this, raw, revision] { publisher->pictureShown(*raw, revision); });
+                post([this, raw, revision] { publisher->recordPictureShown(*raw, revision); });
             };
         }
         post([this, peer] {
@@ -68,7 +68,7 @@ class SessionPublisherTest : public testing::Test {
     void change(const session::Command& command) {
         post([this, command] {
             session::must(value, command);
-            publisher->sessionChanged(server.clock.now());
+            publisher->recordSessionChange(server.clock.now());
             publisher->sendAndRequestPictures();
         });
         server.settle();

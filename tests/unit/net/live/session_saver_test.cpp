@@ -123,17 +123,17 @@ TEST(SessionSaver, LeavesChangesToTheEndIfTheStoreWantsThemOnlyThen) {
     saved.change();
     EXPECT_FALSE(saved.isScheduled());
     EXPECT_EQ(saved.writeBehind.unsaved(), 0U);
-    EXPECT_FALSE(saved.saver->writeBeforeAcknowledgment(true));
-    EXPECT_FALSE(SavedSession(WriteTiming::soon).saver->writeBeforeAcknowledgment(true));
+    EXPECT_FALSE(saved.saver->writeFunctionBeforeAcknowledgment(true));
+    EXPECT_FALSE(SavedSession(WriteTiming::soon).saver->writeFunctionBeforeAcknowledgment(true));
 }
 
 TEST(SessionSaver, WritesTheSessionAsItWasBeforeAChangeIsAcknowledged) {
     SavedSession saved(WriteTiming::at_once);
     saved.value->revision = 1;
-    const auto whole = saved.saver->writeBeforeAcknowledgment(true);
+    const auto whole = saved.saver->writeFunctionBeforeAcknowledgment(true);
     ASSERT_TRUE(whole);
     saved.value->revision = 2;
-    const auto head = saved.saver->writeBeforeAcknowledgment(false);
+    const auto head = saved.saver->writeFunctionBeforeAcknowledgment(false);
     ASSERT_TRUE(head);
     saved.value->revision = 3;
     EXPECT_TRUE(SavedSession::resultOf(*whole));
@@ -146,7 +146,7 @@ TEST(SessionSaver, WritesTheSessionAsItWasBeforeAChangeIsAcknowledged) {
 
 TEST(SessionSaver, SaysIfAnotherServerHasTakenTheSessionOver) {
     SavedSession saved(WriteTiming::at_once);
-    const auto write = saved.makeSaver(store::kFirstFence + 1)->writeBeforeAcknowledgment(true);
+    const auto write = saved.makeSaver(store::kFirstFence + 1)->writeFunctionBeforeAcknowledgment(true);
     ASSERT_TRUE(write);
     EXPECT_FALSE(SavedSession::resultOf(*write));
 }
@@ -154,7 +154,7 @@ TEST(SessionSaver, SaysIfAnotherServerHasTakenTheSessionOver) {
 TEST(SessionSaver, NeverWritesADetachedSession) {
     SavedSession saved(WriteTiming::at_once);
     saved.change();
-    const auto write = saved.saver->writeBeforeAcknowledgment(true);
+    const auto write = saved.saver->writeFunctionBeforeAcknowledgment(true);
     ASSERT_TRUE(write);
     EXPECT_FALSE(saved.saver->hasStoppedSaving());
     saved.saver->stopSaving();

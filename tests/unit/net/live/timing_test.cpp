@@ -60,10 +60,10 @@ TEST(DraftTiming, ChangesThatFollowEachOtherAreQuickUntilTheSessionRests) {
     timing.recordChange(kOpened);
     timing.recordChange(kOpened + 299ms);
     EXPECT_TRUE(timing.hasQuickChanges());
-    EXPECT_EQ(timing.restEndTime(), kOpened + 499ms);
-    timing.endIfRested(kOpened + 498ms);
+    EXPECT_EQ(timing.quickChangesEndTime(), kOpened + 499ms);
+    timing.endQuickChangesIfRested(kOpened + 498ms);
     EXPECT_TRUE(timing.hasQuickChanges());
-    timing.endIfRested(kOpened + 499ms);
+    timing.endQuickChangesIfRested(kOpened + 499ms);
     EXPECT_FALSE(timing.hasQuickChanges());
 }
 
@@ -80,7 +80,7 @@ TEST(DraftTiming, APeriodOfQuickChangesMayBegin) {
     timing.recordChange(kOpened);
     timing.beginQuickChanges();
     EXPECT_TRUE(timing.hasQuickChanges());
-    timing.endIfRested(kOpened + 200ms);
+    timing.endQuickChangesIfRested(kOpened + 200ms);
     EXPECT_FALSE(timing.hasQuickChanges());
 }
 

@@ -91,7 +91,7 @@ class OverPolyhedra : public testing::TestWithParam<const char*> {};
 
 TEST_P(OverPolyhedra, haveTheElementsThatTheBaseImplies) {
     const std::string base = GetParam();
-    const auto solid = std::get<Solid>(*solidNamed(text::lowerCaseWords(base)));
+    const auto solid = std::get<SolidDescription>(*solidNamed(text::lowerCaseWords(base)));
     const SolidMesh mesh = meshOf(solid);
     const std::size_t v = mesh.vertices.size(), f = mesh.faces.size(), e = v + f - 2;
     const auto stated = countsOf(solid);
@@ -185,7 +185,7 @@ TEST(OverPolyhedra, haveCellsWithNames) {
     EXPECT_EQ(cellsByName(built("dual of rectified tesseract")), (Cells{{"triangular bipyramid", 32}}));
     for (const NamedPolyhedron& each : namedPolyhedra()) {
         if (!isConvex(each)) continue;
-        const std::string dual = nameOf(Solid{&each, 0, false, true});
+        const std::string dual = nameOf(SolidDescription{&each, 0, false, true});
         EXPECT_EQ(cellsByName(built("prism of " + dual))[dual], dual == "cube" ? 8U : 2U) << dual;
     }
 }

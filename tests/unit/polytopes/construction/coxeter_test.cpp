@@ -216,7 +216,7 @@ TEST(Names, ofAnyTextAreParsedSafely) {
 
 TEST(Designs, outsideTheCatalogueAreBuiltAndShared) {
     const auto built = [](std::string_view text) {
-        return support::cache().get(std::get<PolytopeDesign>(designNamed(text, 100'000)));
+        return support::cache().findOrBuild(std::get<PolytopeDesign>(designNamed(text, 100'000)));
     };
     const auto twenty = built("20,30-duoprism");
     EXPECT_EQ(twenty->vertices.size(), 600U);

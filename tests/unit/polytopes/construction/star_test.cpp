@@ -125,7 +125,7 @@ TEST(StarProducts, haveTheDensityOfTheirPolygons) {
     const auto density = [&](std::string_view name) {
         const auto design = designNamed(name, 1000);
         if (!std::holds_alternative<PolytopeDesign>(design)) return -1;
-        return std::abs(densityAt(*cache().get(std::get<PolytopeDesign>(design)), randomDirection(random)));
+        return std::abs(densityAt(*cache().findOrBuild(std::get<PolytopeDesign>(design)), randomDirection(random)));
     };
     EXPECT_EQ(density("5/2,5-duoprism"), 2);
     EXPECT_EQ(density("5/2,7/3-duoprism"), 6);
@@ -142,7 +142,7 @@ TEST(StarDiagrams, whoseElementsCoincideAreRefused) {
         const auto design = designNamed(diagram, 100'000);
         ASSERT_TRUE(std::holds_alternative<PolytopeDesign>(design)) << diagram;
         try {
-            (void)cache().get(std::get<PolytopeDesign>(design));
+            (void)cache().findOrBuild(std::get<PolytopeDesign>(design));
             ADD_FAILURE() << diagram;
         } catch (const std::invalid_argument& refused) {
             EXPECT_NE(std::string_view(refused.what()).find("coincide"), std::string_view::npos) << refused.what();

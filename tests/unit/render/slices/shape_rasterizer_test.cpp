@@ -46,7 +46,7 @@ class ShapesInMemory : public testing::TestWithParam<Example> {
 TEST_P(ShapesInMemory, LookLikeThoseOfOpenGl) {
     const Example& example = GetParam();
     const Subject subject(example.polytope, randomRotation(31), 21, example.look, example.viewport);
-    Renderer inMemory, withOpenGl(fontFile(), ShapeBackend::open_gl);
+    Renderer inMemory, withOpenGl(defaultFontPath(), ShapeBackend::open_gl);
     const image::Image one = subject.draw(inMemory), other = subject.draw(withOpenGl);
     ASSERT_EQ(one.pixels.size(), other.pixels.size());
     int unequal = 0;
@@ -68,7 +68,7 @@ TEST_P(ShapesInMemory, AreTheSameWithTwoThreads) {
     const Example& example = GetParam();
     const Subject subject(example.polytope, randomRotation(32), 21, example.look, example.viewport);
     parallel::ForkJoin forkJoin;
-    Renderer one, two(fontFile(), ShapeBackend::fastest, &forkJoin);
+    Renderer one, two(defaultFontPath(), ShapeBackend::fastest, &forkJoin);
     const image::Image expected = subject.draw(one);
     for (int i = 0; i < 4; ++i) EXPECT_EQ(subject.draw(two).pixels, expected.pixels);
 }

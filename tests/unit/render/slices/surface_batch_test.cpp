@@ -92,7 +92,7 @@ TEST(SurfaceBatch, HasTheSurfaceOfTheFocusSliceInTheProjectionApartFromThoseOfTh
 
     SurfaceBatch batch;
     DepthRange depths;
-    const auto clipPoints = [&](SurfaceBatch::Selection selection) {
+    const auto clipPoints = [&](SurfaceBatch::SliceSelection selection) {
         batch.collect(scene, depths, selection);
         std::set<std::array<float, 3>> points;
         for (const SurfaceVertex& vertex : batch.vertices()) {
@@ -102,9 +102,9 @@ TEST(SurfaceBatch, HasTheSurfaceOfTheFocusSliceInTheProjectionApartFromThoseOfTh
         }
         return points;
     };
-    const auto ofSlices = clipPoints(SurfaceBatch::Selection::slices);
+    const auto ofSlices = clipPoints(SurfaceBatch::SliceSelection::slices);
     EXPECT_EQ(batch.slicesFarToNear().size(), 5U);
-    const auto ofProjection = clipPoints(SurfaceBatch::Selection::projection);
+    const auto ofProjection = clipPoints(SurfaceBatch::SliceSelection::projection);
     EXPECT_EQ(batch.slicesFarToNear().size(), 1U);
     const ViewProjection projection = ViewProjection::fromCamera(scene.camera, scene.viewport);
     const glm::dmat4 toView = scene.camera.view();
@@ -130,7 +130,7 @@ TEST(SurfaceBatch, HasTheSurfaceOfTheFocusSliceInTheProjectionApartFromThoseOfTh
     look.parts.faces = false;
     composer.compose(object, {}, slices, 1, look, {1280, 720}, scene);
     EXPECT_FALSE(scene.projection.focusSurface);
-    EXPECT_TRUE(clipPoints(SurfaceBatch::Selection::projection).empty());
+    EXPECT_TRUE(clipPoints(SurfaceBatch::SliceSelection::projection).empty());
     EXPECT_TRUE(batch.slicesFarToNear().empty());
 }
 

@@ -77,7 +77,7 @@ class SurfacesInMemory : public testing::TestWithParam<SurfaceExample> {
 TEST_P(SurfacesInMemory, LookLikeThoseOfOpenGl) {
     const SurfaceExample& example = GetParam();
     const FieldSubject subject(example, 41);
-    Renderer inMemory, withOpenGl(fontFile(), ShapeBackend::open_gl);
+    Renderer inMemory, withOpenGl(defaultFontPath(), ShapeBackend::open_gl);
     const image::Image one = subject.draw(inMemory), other = subject.draw(withOpenGl);
     ASSERT_EQ(one.pixels.size(), other.pixels.size());
     int unequal = 0, covered = 0;
@@ -101,7 +101,7 @@ TEST_P(SurfacesInMemory, AreTheSameWithTwoThreads) {
     const SurfaceExample& example = GetParam();
     const FieldSubject subject(example, 42);
     parallel::ForkJoin forkJoin;
-    Renderer one, two(fontFile(), ShapeBackend::fastest, &forkJoin);
+    Renderer one, two(defaultFontPath(), ShapeBackend::fastest, &forkJoin);
     const image::Image expected = subject.draw(one);
     for (int i = 0; i < 4; ++i) EXPECT_EQ(subject.draw(two).pixels, expected.pixels);
 }
@@ -122,10 +122,12 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(
         SurfaceExample{"opaque", lookOf(kOnlySurfaces, {0}), {640, 360}},
         SurfaceExample{"three", lookOf(kOnlySurfaces, {-0.4, 0, 0.4}), {640, 360}},
-        SurfaceExample{
-            "open", lookOf(kOnlySurfaces, {0}, {.parts = {}, .orbit = {}, .caps = scene::CapStyle::open}), {640, 360}},
-        SurfaceExample{
-            "caps", lookOf(kOnlySurfaces, {0}, {.parts = {}, .orbit = {}, .caps = scene::CapStyle::value}), {640, 360}},
+        SurfaceExample{"open",
+                       lookOf(kOnlySurfaces, {0}, {.parts = {}, .orbit = {}, .caps = scene::SurfaceCapStyle::open}),
+                       {640, 360}},
+        SurfaceExample{"caps",
+                       lookOf(kOnlySurfaces, {0}, {.parts = {}, .orbit = {}, .caps = scene::SurfaceCapStyle::value}),
+                       {640, 360}},
         SurfaceExample{"growth",
                        lookOf(kOnlySurfaces, {0}, {.parts = {}, .orbit = {}, .coloring = scene::Coloring::growth}),
                        {640, 360}},
