@@ -95,6 +95,7 @@ void Composer::layOutAndChooseDetail(const Object& object, const geometry::Hyper
     out.steps.clear();
     out.fogSteps.clear();
     out.quality = quality;
+    out.largerStepsWhereSmooth = quality == slicing::Quality::full;
     out.secondValues = colorsByValue(look);
     const bool hasFog = !look.field.fog.empty();
     if (slicing::fieldIn(object) == nullptr || (!look.parts.faces && !hasFog)) return;

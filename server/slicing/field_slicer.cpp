@@ -51,6 +51,25 @@ std::pair<glm::dvec3, glm::dvec3> boundsOf(const SliceSet& slices, int slice) {
     return {min, max};
 }
 
+/// Returns whether the surfaces, apart from caps, are so smooth that a finer lattice would look the same. If the
+/// normals at the ends of an edge of the length l differ by the angle a, the surface between them is about l · a / 8
+/// away from the edge. On few edges, a may exceed kSharp. Where a body is thinner than a lattice step, edges lead from
+/// one of its sides to the other, so that a is large on many edges.
+bool isSmooth(const SliceSurface& surface) {
+    constexpr float kCosineOfSharp = 0.8776F;  // of kSharp = 0.5 radians; l · a / 8 is then a sixteenth of l
+    constexpr double kMostSharpEdges = 0.05;   // of all edges
+    std::size_t sharp = 0, all = 0;
+    for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
+        if (surface.isCap(t)) continue;
+        const auto& [a, b, c] = surface.triangles[t];
+        const glm::vec3 &atA = surface.normals[a], &atB = surface.normals[b], &atC = surface.normals[c];
+        for (const float cosine : {glm::dot(atA, atB), glm::dot(atB, atC), glm::dot(atC, atA)})
+            sharp += cosine < kCosineOfSharp ? 1 : 0;
+        all += 3;
+    }
+    return static_cast<double>(sharp) <= kMostSharpEdges * static_cast<double>(all);
+}
+
 }  // namespace
 
 void FieldSlicer::slice(const fields::Field& field, const geometry::Rotation& orientation,
@@ -131,15 +150,20 @@ void FieldSlicer::extractSurfacesAndFog(const fields::Field& field, const glm::d
         };
         const fields::ScalarFunction* const second =
             detail.secondValues && field.second != nullptr ? &inQuality(*field.second->function) : nullptr;
-        extractors_[worker].extract(inQuality(*field.function), section,
-                                    {.levels = settings.levels,
-                                     .inside = settings.inside,
-                                     .step = task.step,
-                                     .maxTime = task.share * limits.time,
-                                     .maxPoints = maxPoints,
-                                     .topologyOnly = detail.topologyOnly,
-                                     .pointTime = second != nullptr ? second->cost().value : 0},
-                                    out.surfaces[n]);
+        SurfaceExtractor::ExtractionOptions options{.levels = settings.levels,
+                                                    .inside = settings.inside,
+                                                    .step = task.step,
+                                                    .maxTime = task.share * limits.time,
+                                                    .maxPoints = maxPoints,
+                                                    .topologyOnly = detail.topologyOnly,
+                                                    .pointTime = second != nullptr ? second->cost().value : 0};
+        const fields::ScalarFunction& function = inQuality(*field.function);
+        const auto extract = [&](double step) {
+            options.step = step;
+            extractors_[worker].extract(function, section, options, out.surfaces[n]);
+        };
+        if (detail.largerStepsWhereSmooth) extract(kSmoothStepFactor * task.step);
+        if (!detail.largerStepsWhereSmooth || !isSmooth(out.surfaces[n])) extract(task.step);
         if (second != nullptr) {
             evaluateInSection(*second, section, out.surfaces[n].points, out.surfaces[n].secondValues);
             second->releasePages();

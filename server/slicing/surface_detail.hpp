@@ -32,7 +32,13 @@ struct SurfaceDetail {
     /// levels, and have no normals, growth or values.
     bool topologyOnly = false;
     bool secondValues = false;  ///< whether the points need the values of the field's second function
+    /// Whether slices with smooth surfaces are sampled with kSmoothStepFactor times their step.
+    bool largerStepsWhereSmooth = false;
 };
+
+/// The factor by which SurfaceDetail::largerStepsWhereSmooth enlarges the lattice step of slices with smooth surfaces.
+/// The eye sees no difference: see isSmooth().
+inline constexpr double kSmoothStepFactor = 1.5;
 
 /// Limits on the surfaces of all slices of a picture or file together. If the surfaces would exceed a limit, the
 /// lattices are made coarser. `time` limits the estimated time to extract the surfaces on one core, in nanoseconds.
@@ -75,6 +81,7 @@ inline void setUniformDetail(double circumradius, const geometry::Hyperplanes& p
     out.steps.assign(static_cast<std::size_t>(planes.count), uniformStep(circumradius, quality));
     out.fogSteps.clear();
     out.quality = quality;
+    out.largerStepsWhereSmooth = false;
 }
 
 /// Sets the lattice step of the fog in all slices, for messages, to half the step that setUniformDetail() sets for

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -75,6 +76,36 @@ TEST(FieldSlicer, EllipsoidsHaveTheRightVolumesAndCentroids) {
             }
         }
     }
+}
+
+// With largerStepsWhereSmooth, the slices of a large ball together have about 1/kSmoothStepFactor² times as many
+// points. Slices of a body that is thinner than a lattice step keep all their points.
+TEST(FieldSlicer, OnlySmoothSlicesHaveLargerSteps) {
+    const auto pointsOf = [&](const fields::Field& field, bool largerStepsWhereSmooth) {
+        SurfaceDetail detail = detailOf(field, kPlanes, 40);
+        detail.largerStepsWhereSmooth = largerStepsWhereSmooth;
+        FieldSlicer slicer;
+        SliceSet slices;
+        slicer.slice(field, {}, kPlanes, {}, detail, slices);
+        std::vector<std::size_t> points;
+        for (const SliceSurface& surface : slices.surfaces) {
+            EXPECT_EQ(measure(surface, 0).unpaired, 0U);
+            points.push_back(surface.points.size());
+        }
+        return points;
+    };
+    const fields::Box box{glm::dvec4(-2), glm::dvec4(2)};
+    const auto ball = [](const glm::dvec4& p) { return glm::length(p) - 1.8; };
+    const auto disk = [](const glm::dvec4& p) {
+        return std::max(std::hypot(p.x, p.y) - 1.5, std::abs(0.8 * p.z - 0.6 * p.y) - 0.06);
+    };
+    const auto total = [](const std::vector<std::size_t>& points) {
+        return static_cast<double>(std::accumulate(points.begin(), points.end(), std::size_t{0}));
+    };
+    const double ratio =
+        total(pointsOf(testField(ball, 1, box), false)) / total(pointsOf(testField(ball, 1, box), true));
+    EXPECT_NEAR(ratio, kSmoothStepFactor * kSmoothStepFactor, 0.1);
+    EXPECT_EQ(pointsOf(testField(disk, 1.5, box), true), pointsOf(testField(disk, 1.5, box), false));
 }
 
 // If the whole domain is inside the level, the caps bound exactly the slice of the domain.
