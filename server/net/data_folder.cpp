@@ -342,9 +342,10 @@ Result<FieldCacheFiles::FilePtr> DataFolder::makeCacheFile(std::size_t bytes) {
     }
 }
 
-/// Puts a field into the cache under `key`. Makes room by dropping the least recently used fields that no session uses.
-/// `onDisk` tells whether the field has a file in the field cache. Errors: `too_large` if the field alone exceeds the
-/// maximum memory; `too_many` if the fields in use leave no room.
+/// Puts a field into the cache in memory (recent_) under `key`. Makes room by dropping the least recently used fields
+/// that no session uses. `onDisk` tells whether the field also has a file in the field cache on disk (see
+/// FieldCacheFiles). Errors: `too_large` if the field alone exceeds the maximum memory; `too_many` if the fields in use
+/// leave no room.
 Result<session::ObjectWithWarnings> DataFolder::putInCache(std::string key, session::ObjectWithWarnings loaded,
                                                            bool onDisk) {
     const std::size_t size = slicing::memoryOf(loaded.object);

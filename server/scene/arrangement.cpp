@@ -165,7 +165,7 @@ ProjectionPlacement projectionBesideLine(const glm::dvec3& away, double halfLeng
     return {true, (reach + kGap + radius) * away, radius};
 }
 
-// Places the projection of the whole object to the left of a grid or, unless the room is wide, above it.
+// Places the projection of the whole object above a grid if grid.projectionIsAbove is true, otherwise to its left.
 ProjectionPlacement projectionBesideGrid(const SliceGrid& grid, double reach) {
     // The diameter of the projection, as a fraction of the side of the square that contains it.
     constexpr double kShare = 0.94;

@@ -152,9 +152,9 @@ class ElementPicker {
         return glm::distance(from + t * along, pixel_);
     }
 
-    // Finds the element at the pixel in slice i of `set`, or in part i of the projection. Keeps the element in picked_
-    // if it is nearer than the element in picked_. `position` and `scale` map the units of the object to world space.
-    // `where` has the values for PickedElement::in and PickedElement::slice.
+    // Finds the element at the pixel in slice i of `set`, or in part i of the projection. Sets picked_ to this element
+    // if it is nearer to the eye than the element that picked_ has so far. `position` and `scale` map the units of the
+    // object to world space. `where` has the values for PickedElement::in and PickedElement::slice.
     void pickInSlice(const SliceSet& set, std::size_t i, const glm::dvec3& position, double scale,
                      const DrawnElementSizes& sizes, const PickedElement& where) {
         const std::uint32_t v0 = set.vertexBegin[i], e0 = set.edgeBegin[i];

@@ -216,7 +216,7 @@ BOOST_DESCRIBE_STRUCT(CommandLine, (), (line))
 /// stay the same. But if the query contains an object or rotations, the orientation is first reset to the initial one.
 struct ShowLinkedView {
     static constexpr std::string_view kMessageType = "address";
-    std::string query;  ///< the query of the address, in the form for parseQuery()
+    std::string query;  ///< the query of the address, percent-encoded, without the question mark
 };
 BOOST_DESCRIBE_STRUCT(ShowLinkedView, (), (query))
 

@@ -344,7 +344,7 @@ void RedisStore::remove(std::span<const std::string> ids) {
 
 void RedisStore::restartExpiry(std::span<const std::string> ids) {
     if (!context_) connect();
-    const bool hashed = !alsoStoresPlainTokens();  // whether tokens that are stored as plain text must be deleted
+    const bool hashed = !alsoStoresPlainTokens();  // whether only hashes of tokens may be stored
     for (const std::string& id : ids) {
         send({"PEXPIRE", sessionKey(id), std::to_string(expiry_.count())});
         send({"PEXPIRE", objectsKey(id), std::to_string(expiry_.count())});

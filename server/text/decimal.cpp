@@ -87,9 +87,9 @@ struct FormattedNumbers {
     // For each number: the next eight decimals, including trailing zeros, as bytes from 0 to 9. The lowest byte is the
     // first of these decimals.
     alignas(32) std::uint64_t digits[kBlock];
-    // For each group: whether putCoordinatesScalar() must write all numbers of the group instead. This is necessary in
-    // two cases: a number is too small or too large for `head` and `digits`, or a number has no nonzero digit after the
-    // second decimal. In the second case, `head` could end in superfluous zeros.
+    // For each group: whether putCoordinatesScalar() must write all numbers of the group, because `head` and `digits`
+    // cannot be used. This is so in two cases: a number is too small or too large for `head` and `digits`, or a number
+    // has no nonzero digit after the second decimal. In the second case, `head` could end in superfluous zeros.
     bool needsFallback[kGroups];
 };
 

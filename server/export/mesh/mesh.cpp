@@ -85,7 +85,8 @@ glm::dvec3 doubleAreaNormalOf(const Mesh& mesh, const std::array<std::uint32_t, 
 }
 
 std::vector<std::array<glm::dvec3, 3>> smoothNormals(const Mesh& mesh) {
-    constexpr double kLeastCosine = 0.766;  // the cosine of 40°
+    // The cosine of 40°: a triangle counts for a corner of another triangle if their normals differ by at most 40°.
+    constexpr double kLeastCosine = 0.766;
     const std::size_t count = mesh.triangles.size();
     std::vector<glm::dvec3> across;
     std::vector<std::uint32_t> begin(mesh.points.size() + 1, 0);

@@ -28,7 +28,9 @@ struct SampledLattice {
 void interpolate(const SampledLattice& from, const PointBatch& points, std::span<float> values,
                  InstructionSet instructions);
 
-/// Writes the values and the gradients of the interpolant, as described at ArrayFunction::evaluateWithGradient().
+/// Writes the value and the gradient of the quadrilinear interpolant at each point.
+/// ArrayFunction::evaluateWithGradient() says what the gradient is between two cells, outside the box, and where
+/// samples are missing.
 void interpolateWithGradient(const SampledLattice& from, const PointBatch& points, std::span<float> values,
                              const GradientBatch& gradients, InstructionSet instructions);
 

@@ -1,5 +1,5 @@
 #pragma once
-// Values in the JSON files of Zarr folders.
+// Functions that read values from the JSON files of Zarr folders, which contain the metadata.
 
 #include <optional>
 #include <string>

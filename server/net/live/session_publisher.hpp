@@ -87,8 +87,9 @@ class SessionPublisher : public std::enable_shared_from_this<SessionPublisher> {
     SessionSnapshotPtr currentState();
     /// Returns a job for a worker. The job names the section of the state that is now current, and returns this state.
     std::function<SessionSnapshotPtr(pipeline::Pipeline&)> currentStateJob() const;
-    /// Keeps the result of a currentStateJob(): currentState() then returns it, and its section need not be named
-    /// again. If the session has changed since the job was created, does nothing and returns false.
+    /// Keeps a state that a currentStateJob() has returned, with the name of its section. currentState() then returns
+    /// this state without computing the name again. If the session has changed since the job was created, does nothing
+    /// and returns false.
     bool storeStateIfCurrent(const SessionSnapshotPtr& state);
 
     /// Returns the section that was named last. It may belong to an earlier state. Empty if no section has been named.

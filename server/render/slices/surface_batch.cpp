@@ -161,7 +161,8 @@ std::uint32_t SurfaceBatch::colorOf(const scene::Scene& scene, std::size_t slice
     return rgba(look.colorsPoints() ? look.pointColor(surface, point) : look.color(level, slice), alpha);
 }
 
-// Adds the fringes of the level of a slice that addLevel() has just added.
+// Adds fringes to the level that addLevel() has just added: strips, one pixel wide, outside the silhouette of its
+// surface in this slice. Their opacity falls outward to 0, which makes the silhouette look smooth.
 void SurfaceBatch::addAntialiasingFringes(const scene::Scene& scene, std::size_t slice,
                                           const scene::SurfaceLook::LevelLook& level) {
     const slicing::SliceSurface& surface = scene.slices->surfaces[slice];

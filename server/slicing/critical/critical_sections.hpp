@@ -42,7 +42,7 @@ inline constexpr auto kSectionChanges =
 /// components and cavities, as in SurfaceMeasurements.
 struct SectionTopology {
     std::size_t components = 0, cavities = 0;
-    long euler = 0;  ///< the Euler characteristic of the body's surface
+    long euler = 0;  ///< the Euler characteristic of the surface of the section
     bool operator==(const SectionTopology&) const = default;
 };
 
