@@ -53,11 +53,13 @@ std::pair<glm::dvec3, glm::dvec3> boundsOf(const SliceSet& slices, int slice) {
 
 /// Returns whether the surfaces, apart from caps, are so smooth that a finer lattice would look the same. If the
 /// normals at the ends of an edge of the length l differ by the angle a, the surface between them is about l · a / 8
-/// away from the edge. On few edges, a may exceed kSharp. Where a body is thinner than a lattice step, edges lead from
-/// one of its sides to the other, so that a is large on many edges.
+/// away from the edge. On few edges, a may exceed 0.5 radians. Where a body is thinner than a lattice step, edges lead
+/// from one of its sides to the other, so that a is large on many edges. Returns false if there are no surfaces,
+/// because a finer lattice may find a small body.
 bool isSmooth(const SliceSurface& surface) {
-    constexpr float kCosineOfSharp = 0.8776F;  // of kSharp = 0.5 radians; l · a / 8 is then a sixteenth of l
+    constexpr float kCosineOfSharp = 0.8776F;  // cos 0.5: at this angle, l · a / 8 is a sixteenth of l
     constexpr double kMostSharpEdges = 0.05;   // of all edges
+    if (surface.triangles.empty()) return false;
     std::size_t sharp = 0, all = 0;
     for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
         if (surface.isCap(t)) continue;

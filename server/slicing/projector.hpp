@@ -112,8 +112,8 @@ class Projector {
     std::vector<std::uint32_t> edgeNumber_;  // per edge of the object: its index in part 0, or kNone
 
     bool lacksSteps_ = false;  // see exceededOcclusionSteps()
-    DrawnAndHidingCells
-        roles_;  // the roles of the cells of the last object; `drawn` is valid only during findUnhiddenElements()
+    // The roles of the cells of the last object. `drawn` is valid only during findUnhiddenElements().
+    DrawnAndHidingCells roles_;
     OcclusionFinder occlusion_;
     // The data for which unhidden_ and occlusionFound_ were computed; empty if these are not valid.
     std::optional<OcclusionInput> occlusionInput_;

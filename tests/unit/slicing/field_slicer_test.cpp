@@ -79,7 +79,7 @@ TEST(FieldSlicer, EllipsoidsHaveTheRightVolumesAndCentroids) {
 }
 
 // With largerStepsWhereSmooth, the slices of a large ball together have about 1/kSmoothStepFactor² times as many
-// points. Slices of a body that is thinner than a lattice step keep all their points.
+// points. Slices of a body that is thinner than a lattice step, or that the larger steps miss, keep all their points.
 TEST(FieldSlicer, OnlySmoothSlicesHaveLargerSteps) {
     const auto pointsOf = [&](const fields::Field& field, bool largerStepsWhereSmooth) {
         SurfaceDetail detail = detailOf(field, kPlanes, 40);
@@ -106,6 +106,11 @@ TEST(FieldSlicer, OnlySmoothSlicesHaveLargerSteps) {
         total(pointsOf(testField(ball, 1, box), false)) / total(pointsOf(testField(ball, 1, box), true));
     EXPECT_NEAR(ratio, kSmoothStepFactor * kSmoothStepFactor, 0.1);
     EXPECT_EQ(pointsOf(testField(disk, 1.5, box), true), pointsOf(testField(disk, 1.5, box), false));
+    // The center of the small ball is a lattice point, but none of the lattice with the larger steps.
+    const auto smallBall = [](const glm::dvec4& p) { return glm::length(p - glm::dvec4(0.2, 0.2, 0.2, 0)) - 0.12; };
+    const auto pointsOfSmallBall = pointsOf(testField(smallBall, 1, box), true);
+    EXPECT_GT(total(pointsOfSmallBall), 0);
+    EXPECT_EQ(pointsOfSmallBall, pointsOf(testField(smallBall, 1, box), false));
 }
 
 // If the whole domain is inside the level, the caps bound exactly the slice of the domain.
