@@ -196,9 +196,8 @@ void findSourcesIn(const PointCloud& /*cloud*/, const Element& element, PartsSho
     out.ownVertices = out.vertices;
 }
 
-// Sets the length, area or volume of `element` in `out`. It is measured in the coordinates of the object's file or, for
-// the box of a field, in those of the function. `toFile` is the linear part of the map from the object's coordinates to
-// these coordinates.
+// Sets the length, area or volume of `element` in `out`, in the units of the object's file or of a field's function.
+// `toFile` is the linear part of the map from the object's coordinates to those of the file or function.
 void measureSize(const CellComplex& p, const Element& element, const glm::dmat4& toFile, ElementMeasurements& out) {
     std::vector<glm::dvec4> points;
     visitVertices(p, element, [&](const glm::dvec4& v) { points.push_back(v); });
